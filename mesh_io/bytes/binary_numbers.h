@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -54,6 +56,17 @@ class BinaryNumbers {
       }
     }
     return true;
+  }
+
+  // As PlainNumbers have them, for functions that read a row of either.
+  bool next_real(double& value, std::string_view /*what*/) { return next(value) && std::isfinite(value); }
+  template <class T>
+  bool next_whole(T& value, std::string_view /*what*/, std::int64_t lowest, std::int64_t highest) {
+    return next(value) && lowest <= value && value <= highest;
+  }
+  template <class Message>
+  static bool fail(const Message& /*message*/) {
+    return false;
   }
 
   /// A row may end anywhere.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/document/uniform_cells.h"
 #include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/careful_numbers.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -84,45 +84,18 @@ class FreeFemReader {
     require("edges", edge_count_, freefem_edges.vertices + 1);
   }
 
-  /// Rows read in parts, by all workers; false where these are none, or not plain.
-  template <class ReadRow>
-  bool read_plain(std::size_t count, std::size_t columns, const ReadRow& read_row) {
-    const auto end = count == 0 ? std::nullopt
-                                : plain_rows_.read(scanner_.offset(), count, columns,
-                                                   [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                                                     bool plain = true;
-                                                     for (std::size_t row = first; row < last && plain; ++row) {
-                                                       plain = read_row(numbers, row);
-                                                     }
-                                                     return plain;
-                                                   });
-    if (end) {
-      scanner_.resume(end->last_number, end->offset);
-    }
-    return end.has_value();
-  }
-
   void read_vertices() {
     shared_resize(document_.points, 3 * vertex_count_, sites_.offsets, 2 * vertex_count_, workers_.workers);
     shared_resize(vertex_labels_, vertex_count_, workers_.workers);
-    const bool plain =
-        read_plain(vertex_count_, freefem_vertex_numbers, [&](PlainNumbers& numbers, std::size_t vertex) {
-          for (std::size_t axis = 0; axis < 2; ++axis) {
-            double& coordinate = document_.points[3 * vertex + axis];
-            if (!numbers.next(coordinate) || !std::isfinite(coordinate)) {
-              return false;
-            }
-            sites_.offsets[2 * vertex + axis] = numbers.token_offset();
-          }
-          return numbers.next(vertex_labels_[vertex]);
-        });
-    for (std::size_t vertex = 0; vertex < vertex_count_ && !plain; ++vertex) {
+    read_rows(plain_rows_, scanner_, vertex_count_, freefem_vertex_numbers, {}, [&](auto& numbers, std::size_t vertex) {
       for (std::size_t axis = 0; axis < 2; ++axis) {
-        document_.points[3 * vertex + axis] = scanner_.next_double("a coordinate");
-        sites_.offsets[2 * vertex + axis] = scanner_.token_offset();
+        if (!numbers.next_real(document_.points[3 * vertex + axis], "a coordinate")) {
+          return false;
+        }
+        sites_.offsets[2 * vertex + axis] = numbers.token_offset();
       }
-      vertex_labels_[vertex] = next_label();
-    }
+      return numbers.next_whole(vertex_labels_[vertex], "a label");
+    });
   }
 
   void read_cells(const FreeFemCells& kind, std::size_t count) {
@@ -132,37 +105,20 @@ class FreeFemReader {
     const auto corners = std::span(cells.connectivity).last(kind.vertices * count);
     const auto labels = std::span(cell_labels_).last(count);
     const auto vertices = static_cast<std::int64_t>(vertex_count_);
-    const bool plain = read_plain(count, kind.vertices + 1, [&](PlainNumbers& numbers, std::size_t cell) {
+    read_rows(plain_rows_, scanner_, count, kind.vertices + 1, {}, [&](auto& numbers, std::size_t cell) {
+      const auto wrong_corner = [&](std::string_view token) {
+        return std::string(kind.name) + " " + std::to_string(cell + 1) + " of " + std::to_string(count) +
+               ": expected a vertex number, got " + quoted(token) + "; the file has " + std::to_string(vertices) +
+               " vertices, counted from 1";
+      };
       for (std::int32_t& corner : corners.subspan(cell * kind.vertices, kind.vertices)) {
-        if (!numbers.next(corner) || corner < 1 || corner > vertices) {
+        if (!numbers.next_index(corner, "a vertex number", 1, vertices, wrong_corner)) {
           return false;
         }
         --corner;
       }
-      return numbers.next(labels[cell]);
+      return numbers.next_whole(labels[cell], "a label");
     });
-    for (std::size_t cell = 0; cell < count && !plain; ++cell) {
-      for (std::int32_t& corner : corners.subspan(cell * kind.vertices, kind.vertices)) {
-        corner = next_corner(kind, cell, count);
-      }
-      labels[cell] = next_label();
-    }
-  }
-
-  std::int32_t next_corner(const FreeFemCells& kind, std::size_t cell, std::size_t count) {
-    const std::string_view token = scanner_.next_token("a vertex number");
-    const std::optional<std::int64_t> number = parse_integer(token);
-    if (!number || *number < 1 || *number > static_cast<std::int64_t>(vertex_count_)) {
-      scanner_.fail(std::string(kind.name) + " " + std::to_string(cell + 1) + " of " + std::to_string(count) +
-                    ": expected a vertex number, got " + quoted(token) + "; the file has " +
-                    std::to_string(vertex_count_) + " vertices, counted from 1");
-    }
-    return static_cast<std::int32_t>(*number - 1);
-  }
-
-  std::int64_t next_label() {
-    return scanner_.next_integer("a label", std::numeric_limits<std::int64_t>::min(),
-                                 std::numeric_limits<std::int64_t>::max());
   }
 
   /// 0 is what all have where a file tells nothing apart.

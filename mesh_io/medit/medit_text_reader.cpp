@@ -1,25 +1,20 @@
 #include "trismooth/mesh_io/medit/medit_text_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/careful_numbers.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 
 namespace {
-
-constexpr std::int64_t lowest_medit_reference = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t highest_medit_reference = std::numeric_limits<std::int64_t>::max();
 
 bool begins_medit_keyword(char c) {
   return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
@@ -130,42 +125,15 @@ class MeditTextReader {
     }
     const std::size_t count = read_count("Vertices", dimension + 1);
     mesh_.resize_vertices(count);
-    const auto end = count == 0 ? std::nullopt
-                                : plain_rows_.read(scanner_.offset(), count, dimension + 1,
-                                                   [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                                                     return read_plain_vertices(numbers, first, last);
-                                                   });
-    if (end) {
-      scanner_.resume(end->last_number, end->offset);
-      return;
-    }
-    for (std::size_t vertex = 0; vertex < count; ++vertex) {
-      if (scanner_.at_end()) {
-        scanner_.fail("expected " + std::to_string(count) + " vertices, got " + std::to_string(vertex));
-      }
+    read_rows(plain_rows_, scanner_, count, dimension + 1, "vertices", [&](auto& numbers, std::size_t vertex) {
       for (std::size_t axis = 0; axis < dimension; ++axis) {
-        mesh_.document.points[3 * vertex + axis] = scanner_.next_double("a coordinate");
-        mesh_.sites.offsets[dimension * vertex + axis] = scanner_.token_offset();
-      }
-      mesh_.vertex_refs[vertex] = next_reference();
-    }
-  }
-
-  bool read_plain_vertices(PlainNumbers& numbers, std::size_t first, std::size_t last) {
-    const std::size_t dimension = mesh_.dimension();
-    for (std::size_t vertex = first; vertex < last; ++vertex) {
-      for (std::size_t axis = 0; axis < dimension; ++axis) {
-        double& coordinate = mesh_.document.points[3 * vertex + axis];
-        if (!numbers.next(coordinate) || !std::isfinite(coordinate)) {
+        if (!numbers.next_real(mesh_.document.points[3 * vertex + axis], "a coordinate")) {
           return false;
         }
         mesh_.sites.offsets[dimension * vertex + axis] = numbers.token_offset();
       }
-      if (!numbers.next(mesh_.vertex_refs[vertex])) {
-        return false;
-      }
-    }
-    return true;
+      return numbers.next_whole(mesh_.vertex_refs[vertex], "a reference");
+    });
   }
 
   /// Those that were passed over.
@@ -187,55 +155,23 @@ class MeditTextReader {
 
   void read_cells(const MeditKeyword& keyword) {
     const std::size_t count = read_count(keyword.name, keyword.vertices + 1);
-    const std::size_t first_cell = mesh_.append_cells(keyword, count);
+    mesh_.append_cells(keyword, count);
     const auto corners = std::span(mesh_.document.cells.connectivity).last(count * keyword.vertices);
     const auto references = std::span(mesh_.cell_refs).last(count);
     const auto vertices = static_cast<std::int64_t>(mesh_.document.point_count());
-    const auto end = count == 0 ? std::nullopt
-                                : plain_rows_.read(scanner_.offset(), count, keyword.vertices + 1,
-                                                   [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                                                     for (std::size_t cell = first; cell < last; ++cell) {
-                                                       for (std::int32_t& corner : corners.subspan(
-                                                                cell * keyword.vertices, keyword.vertices)) {
-                                                         if (!numbers.next(corner) || corner < 1 || corner > vertices) {
-                                                           return false;
-                                                         }
-                                                         --corner;
-                                                       }
-                                                       if (!numbers.next(references[cell])) {
-                                                         return false;
-                                                       }
-                                                     }
-                                                     return true;
-                                                   });
-    if (end) {
-      scanner_.resume(end->last_number, end->offset);
-      return;
-    }
-    for (std::size_t cell = 0; cell < count; ++cell) {
-      if (scanner_.at_end()) {
-        scanner_.fail("expected " + std::to_string(count) + " " + std::string(keyword.name) + ", got " +
-                      std::to_string(cell));
-      }
+    const auto wrong_corner = [vertices](std::string_view token) {
+      return "expected a vertex number, got " + quoted(token) + "; the file has " + std::to_string(vertices) +
+             " vertices, counted from 1";
+    };
+    read_rows(plain_rows_, scanner_, count, keyword.vertices + 1, keyword.name, [&](auto& numbers, std::size_t cell) {
       for (std::int32_t& corner : corners.subspan(cell * keyword.vertices, keyword.vertices)) {
-        corner = next_corner(vertices);
+        if (!numbers.next_index(corner, "a vertex number", 1, vertices, wrong_corner)) {
+          return false;
+        }
+        --corner;
       }
-      mesh_.cell_refs[first_cell + cell] = next_reference();
-    }
-  }
-
-  std::int32_t next_corner(std::int64_t vertices) {
-    const std::string_view token = scanner_.next_token("a vertex number");
-    const std::optional<std::int64_t> number = parse_integer(token);
-    if (!number || *number < 1 || *number > vertices) {
-      scanner_.fail("expected a vertex number, got " + quoted(token) + "; the file has " + std::to_string(vertices) +
-                    " vertices, counted from 1");
-    }
-    return static_cast<std::int32_t>(*number - 1);
-  }
-
-  std::int64_t next_reference() {
-    return scanner_.next_integer("a reference", lowest_medit_reference, highest_medit_reference);
+      return numbers.next_whole(references[cell], "a reference");
+    });
   }
 
   void read_set(const MeditKeyword& keyword) {

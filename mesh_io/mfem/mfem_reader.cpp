@@ -19,6 +19,7 @@
 #include "trismooth/mesh_io/mfem/mfem_nodes.h"
 #include "trismooth/mesh_io/mfem/mfem_sets.h"
 #include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/careful_numbers.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -316,40 +317,16 @@ class MfemReader {
 
   /// Rows of the numbers of `sites`, which has room for them, into `places`, three numbers each.
   void read_places(NumberSites& sites, std::vector<double>& places, std::string_view what) {
-    if (sites.size() == 0 || read_plain_places(sites, places)) {
-      return;
-    }
     const std::size_t columns = sites.columns.size();
-    for (std::size_t place = 0; place < sites.size(); ++place) {
-      if (scanner_.at_end()) {
-        scanner_.fail("expected " + std::to_string(sites.size()) + " " + std::string(what) + ", got " +
-                      std::to_string(place));
-      }
+    read_rows(rows_, scanner_, sites.size(), columns, what, [&](auto& numbers, std::size_t place) {
       for (std::size_t column = 0; column < columns; ++column) {
-        places[3 * place + sites.columns[column].component] = scanner_.next_double("a coordinate");
-        sites.offsets[columns * place + column] = scanner_.token_offset();
+        if (!numbers.next_real(places[3 * place + sites.columns[column].component], "a coordinate")) {
+          return false;
+        }
+        sites.offsets[columns * place + column] = numbers.token_offset();
       }
-    }
-  }
-
-  bool read_plain_places(NumberSites& sites, std::vector<double>& places) {
-    const std::size_t columns = sites.columns.size();
-    const auto end = rows_.read(scanner_.offset(), sites.size(), columns,
-                                [&](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                                  bool plain = true;
-                                  for (std::size_t place = first; place < last && plain; ++place) {
-                                    for (std::size_t column = 0; column < columns; ++column) {
-                                      double& coordinate = places[3 * place + sites.columns[column].component];
-                                      plain = plain && numbers.next(coordinate) && std::isfinite(coordinate);
-                                      sites.offsets[columns * place + column] = numbers.token_offset();
-                                    }
-                                  }
-                                  return plain;
-                                });
-    if (end) {
-      scanner_.resume(end->last_number, end->offset);
-    }
-    return end.has_value();
+      return true;
+    });
   }
 
   /// Elements stand before the vertices: whether there are so many is known later.

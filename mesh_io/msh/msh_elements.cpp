@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include "trismooth/mesh_io/document/member_budget.h"
 #include "trismooth/mesh_io/msh/msh_element_types.h"
@@ -169,7 +170,7 @@ class MshElementReader {
       tag_list_.clear();
       for (std::size_t row = 0; row < count; ++row) {
         tag_list_.push_back(next_element_or_node_tag("the tag of an element"));
-        read_vertices(type, begin_cell(row));
+        next_vertices<std::int64_t>(input_, type, begin_cell(row));
       }
       elements_.tags.add(tag_list_);
     }
@@ -201,23 +202,11 @@ class MshElementReader {
     return input_.header().version >= 41 ? input_.size(what) : input_.integer(what, 0, largest_msh_int);
   }
 
-  /// Of an element that has been begun: its nodes are read.
-  void read_vertices(const MshElementType& type, std::int32_t* vertices) {
-    for (std::size_t i = 0; i < type.vertices; ++i) {
-      const std::int64_t tag = next_element_or_node_tag("the tag of a node");
-      const std::int64_t vertex = nodes_.find(tag);
-      if (vertex < 0) {
-        input_.fail("the element refers to node " + std::to_string(tag) + ", which the file does not have");
-      }
-      vertices[type.places.empty() ? i : type.places[i]] = static_cast<std::int32_t>(vertex);
-    }
-  }
-
-  /// The same for the next one of a list.
+  /// Of the next element of a list, which has been begun.
   void read_vertices(const MshElementType& type) {
     const std::size_t begin = cells_.connectivity.size();
     cells_.connectivity.resize(begin + type.vertices);
-    read_vertices(type, cells_.connectivity.data() + begin);
+    next_vertices<std::int64_t>(input_, type, cells_.connectivity.data() + begin);
     cells_.offsets.push_back(static_cast<std::int64_t>(cells_.connectivity.size()));
     cells_.types.push_back(type.cell);
   }
@@ -226,18 +215,11 @@ class MshElementReader {
   using FirstLabels = std::array<std::int64_t, 4>;
 
   void read_labels(std::size_t count) {
-    FirstLabels first{};
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::int64_t label = input_.integer("a tag of an element", -largest_msh_int, largest_msh_int);
-      if (i < first.size()) {
-        first[i] = label;
-      }
-    }
     const std::size_t element = elements_.physical.size();
     elements_.physical.push_back(0);
     elements_.geometrical.push_back(0);
     elements_.partition.push_back(0);
-    set_labels(element, first, count);
+    next_labels(input_, element, count);
   }
 
   void set_labels(std::size_t element, const FirstLabels& first, std::size_t count) {
@@ -332,12 +314,13 @@ class MshElementReader {
     return plain;
   }
 
+  /// From PlainNumbers or the input.
   template <class Numbers>
   bool next_labels(Numbers& numbers, std::size_t element, std::size_t count) {
     FirstLabels first{};
     for (std::size_t i = 0; i < count; ++i) {
       std::int32_t label = 0;
-      if (!numbers.next(label) || label < -largest_msh_int) {
+      if (!numbers.next_whole(label, "a tag of an element", -largest_msh_int, largest_msh_int)) {
         return false;
       }
       if (i < first.size()) {
@@ -372,28 +355,35 @@ class MshElementReader {
     return outside >> 63 == 0;
   }
 
-  /// The vertices that the next tags of nodes stand for; false where one cannot be read, or is of no node.
+  /// The vertices that the next tags of nodes stand for, of PlainNumbers, BinaryNumbers or the input; false where one
+  /// cannot be read, or is of no node.
   template <class Tag, class Numbers>
-  bool next_vertices(Numbers& numbers, const MshElementType& type, std::int32_t* vertices) const {
-    if (is_triangle(type)) {
-      // Triangles, and so most of the numbers of most files.
-      std::array<Tag, 3> tags{};
-      bool found = next_tags(numbers, tags);
-      for (std::size_t i = 0; i < tags.size() && found; ++i) {
-        const std::int64_t vertex = nodes_.find(static_cast<std::int64_t>(tags[i]));
-        found = vertex >= 0;
-        vertices[i] = static_cast<std::int32_t>(vertex);
+  bool next_vertices(Numbers& numbers, const MshElementType& type, std::int32_t* vertices) {
+    if constexpr (!std::is_same_v<Numbers, MshInput>) {
+      if (is_triangle(type)) {
+        // Triangles, and so most of the numbers of most files.
+        std::array<Tag, 3> tags{};
+        bool found = next_tags(numbers, tags);
+        for (std::size_t i = 0; i < tags.size() && found; ++i) {
+          const std::int64_t vertex = nodes_.find(static_cast<std::int64_t>(tags[i]));
+          found = vertex >= 0;
+          vertices[i] = static_cast<std::int32_t>(vertex);
+        }
+        return found;
       }
-      return found;
     }
     for (std::size_t i = 0; i < type.vertices; ++i) {
       std::int64_t tag = 0;
-      if (!next_tag<Tag>(numbers, tag)) {
+      if constexpr (std::is_same_v<Numbers, MshInput>) {
+        tag = next_element_or_node_tag("the tag of a node");
+      } else if (!next_tag<Tag>(numbers, tag)) {
         return false;
       }
       const std::int64_t vertex = nodes_.find(tag);
       if (vertex < 0) {
-        return false;
+        return numbers.fail([tag](std::string_view /*token*/) {
+          return "the element refers to node " + std::to_string(tag) + ", which the file does not have";
+        });
       }
       vertices[type.places.empty() ? i : type.places[i]] = static_cast<std::int32_t>(vertex);
     }

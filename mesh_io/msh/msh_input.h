@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -51,6 +52,22 @@ class MshInput {
   std::int64_t size(std::string_view what, std::int64_t highest = std::numeric_limits<std::int64_t>::max());
   /// The next number of floating point, finite.
   double real(std::string_view what);
+
+  // As CarefulNumbers have them: a function that reads a row takes these too.
+  bool next_real(double& value, std::string_view what) {
+    value = real(what);
+    return true;
+  }
+  template <class T>
+  bool next_whole(T& value, std::string_view what, std::int64_t lowest, std::int64_t highest) {
+    value = static_cast<T>(integer(what, lowest, highest));
+    return true;
+  }
+  std::size_t token_offset() const { return number_offset(); }
+  template <std::invocable<std::string_view> Message>
+  [[noreturn]] bool fail(const Message& message) const {
+    fail_at(number_offset(), message(std::string_view()));
+  }
 
   /// Fails unless there is room for that many things of so many numbers and bytes at least.
   void require_room(std::string_view what, std::uint64_t count, std::size_t numbers_each, std::size_t bytes_each);

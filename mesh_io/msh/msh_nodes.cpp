@@ -204,14 +204,14 @@ class MshNodeReader {
     if (!tags_in_rows) {
       if (!read_plain_rows(block, false)) {
         for (std::size_t node = 0; node < count; ++node) {
-          read_row(block, node);
+          read_row(input_, block, node);
         }
       }
     } else if (!read_plain_rows(block, true)) {
       tag_list_.clear();
       for (std::size_t node = 0; node < count; ++node) {
         tag_list_.push_back(input_.integer("the tag of a node", 0, largest_msh_int));
-        read_row(block, node);
+        read_row(input_, block, node);
       }
       nodes_.tags.add(tag_list_);
     }
@@ -250,15 +250,24 @@ class MshNodeReader {
     std::size_t count;
   };
 
-  void read_row(const Block& block, std::size_t node) {
+  /// The coordinates of a node and its parameters, from PlainNumbers, BinaryNumbers or the input.
+  template <class Numbers>
+  bool read_row(Numbers& numbers, const Block& block, std::size_t node) {
     const std::size_t columns = block.list.sites.columns.size();
-    const std::size_t site = columns * (block.first_site + node);
-    for (std::size_t i = 0; i < columns; ++i) {
-      const double value = input_.real(i < 3 ? "a coordinate" : "a parametric coordinate");
-      (i < 3 ? document_.points[3 * (block.first_vertex + node) + i]
-             : block.list.parametric.values[(columns - 3) * (block.first_site + node) + i - 3]) = value;
-      block.list.sites.offsets[site + i] = input_.number_offset();
+    const std::size_t parameters = columns - 3;
+    double* const point = document_.points.data() + 3 * (block.first_vertex + node);
+    std::uint64_t* const offsets = block.list.sites.offsets.data() + columns * (block.first_site + node);
+    bool read = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      read = read && numbers.next_real(point[i], "a coordinate");
+      offsets[i] = numbers.token_offset();
     }
+    for (std::size_t i = 0; i < parameters; ++i) {
+      double& value = block.list.parametric.values[parameters * (block.first_site + node) + i];
+      read = read && numbers.next_real(value, "a parametric coordinate");
+      offsets[3 + i] = numbers.token_offset();
+    }
+    return read;
   }
 
   void read_tags(std::size_t count) {
@@ -277,33 +286,17 @@ class MshNodeReader {
 
   bool read_plain_rows(const Block& block, bool tags_in_rows) {
     const std::size_t columns = block.list.sites.columns.size();
-    const std::size_t parameters = columns - 3;
-    const auto read_row = [&](auto& numbers, std::size_t row, auto /*type*/) {
-      double* const point = document_.points.data() + 3 * (block.first_vertex + row);
-      std::uint64_t* const offsets = block.list.sites.offsets.data() + columns * (block.first_site + row);
-      bool plain = true;
-      for (std::size_t i = 0; i < 3; ++i) {
-        plain = plain && numbers.next(point[i]) && std::isfinite(point[i]);
-        offsets[i] = numbers.token_offset();
-      }
-      for (std::size_t i = 0; i < parameters; ++i) {
-        double& value = block.list.parametric.values[parameters * (block.first_site + row) + i];
-        plain = plain && numbers.next(value) && std::isfinite(value);
-        offsets[3 + i] = numbers.token_offset();
-      }
-      return plain;
-    };
     if (tags_in_rows) {
       const MshTagKind kind = tag_kind_of(input_.header());
       return MshRowTags(kind, block.count)
           .read(rows_, input_, {block.count, 1 + columns, tag_bytes(kind) + columns * msh_real_bytes}, nodes_.tags,
-                read_row);
+                [&](auto& numbers, std::size_t row, auto /*type*/) { return read_row(numbers, block, row); });
     }
     return rows_.read({block.count, columns, columns * msh_real_bytes},
                       [&](auto& numbers, std::size_t first, std::size_t last) {
                         bool plain = true;
                         for (std::size_t row = first; row < last && plain; ++row) {
-                          plain = read_row(numbers, row, 0);
+                          plain = read_row(numbers, block, row);
                         }
                         return plain;
                       });

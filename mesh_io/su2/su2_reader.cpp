@@ -20,7 +20,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/su2/su2_elements.h"
 #include "trismooth/mesh_io/su2/su2_keyword_line.h"
-#include "trismooth/mesh_io/su2/su2_plain_rows.h"
+#include "trismooth/mesh_io/su2/su2_rows.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/line_parts.h"
 #include "trismooth/mesh_io/text/number_text.h"
@@ -86,7 +86,7 @@ class Su2Reader {
       : scanner_(bytes, path, TextScanner::Comments::percent,
                  bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
         workers_(workers),
-        plain_rows_(bytes, workers) {}
+        rows_(scanner_, workers) {}
 
   std::pair<MeshDocument, NumberSites> read() {
     while (!scanner_.at_end()) {
@@ -262,36 +262,8 @@ class Su2Reader {
     const auto dimension = static_cast<std::size_t>(dimension_);
     require_room(scanner_.path(), "points", count, 2 * dimension, bytes_left() + 1);
     shared_resize(document_.points, 3 * (first + count), sites_.offsets, dimension * (first + count), workers_.workers);
-    const auto end = count == 0 ? std::nullopt : plain_rows_.read_points(scanner_.offset(), first, document_, sites_);
-    if (end) {
-      scanner_.resume(end->last_number, end->offset);
-    } else {
-      for (std::size_t i = 0; i < count; ++i) {
-        read_point(first + i, i);
-      }
-    }
+    rows_.read_points(first, document_, sites_);
     behind_rows_ = "points";
-  }
-
-  void read_point(std::size_t point, std::size_t row) {
-    row_ = {"point", row, static_cast<std::size_t>(*zone_.points)};
-    const auto dimension = static_cast<std::size_t>(dimension_);
-    if (scanner_.at_end()) {
-      scanner_.fail("expected " + std::to_string(*zone_.points) + " points, got " + std::to_string(row));
-    }
-    for (std::size_t axis = 0; axis < dimension; ++axis) {
-      if (axis > 0 && scanner_.at_end_of_line()) {
-        fail_row("expected " + std::to_string(dimension) + " coordinates, got " + std::to_string(axis));
-      }
-      document_.points[3 * point + axis] = scanner_.next_double("a coordinate");
-      sites_.offsets[dimension * point + axis] = scanner_.token_offset();
-    }
-    while (!scanner_.at_end_of_line()) {
-      const std::string_view token = scanner_.next_token("the end of the line");
-      if (!parse_number<double>(token)) {
-        fail_row("expected a number or the end of the line behind the coordinates, got " + quoted(token));
-      }
-    }
   }
 
   void read_marker(const Su2KeywordLine& line) {
@@ -320,62 +292,8 @@ class Su2Reader {
   void read_cells(Su2Section section, std::size_t count) {
     constexpr std::size_t least_row_bytes = 4;  // a type and a point
     require_room(scanner_.path(), "elements", count, least_row_bytes, bytes_left() + 1);
-    if (section == Su2Section::elements && count > 0) {
-      const Su2PlainRows::Indices indices{zone_.first_point, static_cast<std::int32_t>(*zone_.points)};
-      if (const auto end = plain_rows_.read_elements(scanner_.offset(), count, dimension_, indices, document_.cells)) {
-        scanner_.resume(end->last_number, end->offset);
-        return;
-      }
-    }
-    for (std::size_t row = 0; row < count; ++row) {
-      if (scanner_.at_end()) {
-        scanner_.fail("expected " + std::to_string(count) + " elements, got " + std::to_string(row));
-      }
-      read_cell(section, row, count);
-    }
-  }
-
-  void read_cell(Su2Section section, std::size_t row, std::size_t count) {
-    row_ = {"element", row, count};
-    const std::string_view token = scanner_.next_token("the type of an element");
-    const std::optional<std::int64_t> type = parse_integer(token);
-    if (type && !su2_solid_name(*type).empty()) {
-      fail_row("a " + std::string(su2_solid_name(*type)) +
-               "; meshes of solids are not read, only those of triangles and quadrilaterals");
-    }
-    const std::size_t points = type ? su2_points_of(section, dimension_, *type) : 0;
-    if (points == 0) {
-      fail_row("expected its type, " + std::string(expected_types(section)) + ", got " + quoted(token));
-    }
-    std::array<std::int32_t, 4> vertices{};
-    for (std::size_t corner = 0; corner < points; ++corner) {
-      if (scanner_.at_end_of_line()) {
-        fail_row("expected " + std::to_string(points) + " points behind its type, got " + std::to_string(corner));
-      }
-      const std::string_view word = scanner_.next_token("a point");
-      const std::optional<std::int64_t> index = parse_integer(word);
-      if (!index || *index < 0 || *index >= *zone_.points) {
-        fail_row("expected a point, got " + quoted(word) + "; " + name_of_zone() + " has " +
-                 std::to_string(*zone_.points) + " points, counted from 0");
-      }
-      vertices.at(corner) = zone_.first_point + static_cast<std::int32_t>(*index);
-    }
-    if (!scanner_.at_end_of_line()) {
-      const std::string_view word = scanner_.next_token("the end of the line");
-      if (!parse_integer(word) || !scanner_.at_end_of_line()) {
-        fail_row("expected the end of the line behind " + std::to_string(points) +
-                 " points and a number of the element, got " + quoted(word));
-      }
-    }
-    document_.cells.append(static_cast<std::uint8_t>(*type), std::span(vertices).first(points));
-  }
-
-  std::string_view expected_types(Su2Section section) const {
-    if (section == Su2Section::marker && dimension_ == 2) {
-      return "3 (a line) or 1 (a point)";
-    }
-    return section == Su2Section::marker ? "5 (a triangle), 9 (a quadrilateral), 3 (a line) or 1 (a point)"
-                                         : "5 (a triangle), 9 (a quadrilateral) or 3 (a line)";
+    rows_.read_cells({section, dimension_, zone_.first_point, static_cast<std::int32_t>(*zone_.points), name_of_zone()},
+                     count, document_.cells);
   }
 
   /// Rows behind those that a count declares mean that the count is wrong.
@@ -418,11 +336,6 @@ class Su2Reader {
     return zone_.number == 0 ? std::string("the file") : "zone " + std::to_string(zone_.number);
   }
 
-  [[noreturn]] void fail_row(const std::string& message) const {
-    scanner_.fail(std::string(row_.kind) + " " + std::to_string(row_.number + 1) + " of " + std::to_string(row_.count) +
-                  ": " + message);
-  }
-
   [[noreturn]] void fail_file(const std::string& message) const { throw ReadError(scanner_.path(), message); }
 
   /// What belongs to no section that is read. Boxes and periodic boundaries have a dozen keywords each.
@@ -458,7 +371,7 @@ class Su2Reader {
 
   TextScanner scanner_;
   FileWorkers workers_;
-  Su2PlainRows plain_rows_;
+  Su2Rows rows_;
   MeshDocument document_;
   NumberSites sites_;
   int dimension_ = 0;  ///< 0: not known yet
@@ -471,12 +384,6 @@ class Su2Reader {
   MarkerNames names_;
   std::vector<std::int32_t> markers_;  ///< of the cells so far
   std::vector<std::int32_t> zones_;
-  /// The row that is being read, for messages.
-  struct Row {
-    std::string_view kind;
-    std::size_t number = 0;
-    std::size_t count = 0;
-  } row_;
   std::string_view behind_rows_;  ///< rows of what have just ended; empty elsewhere
   std::set<std::string> other_sections_;
   std::string other_list_;

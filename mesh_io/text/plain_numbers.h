@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -42,6 +43,35 @@ class PlainNumbers {
     } else {
       return next_integer(value);
     }
+  }
+
+  // As CarefulNumbers have them; false in place of their messages.
+
+  /// The next finite number.
+  [[gnu::always_inline]] bool next_real(double& value, std::string_view /*what*/) {
+    return next(value) && std::isfinite(value);
+  }
+
+  /// The next whole number, from `lowest` to `highest`.
+  template <class T>
+  [[gnu::always_inline]] bool next_whole(T& value, std::string_view /*what*/,
+                                         std::int64_t lowest = std::numeric_limits<T>::min(),
+                                         std::int64_t highest = std::numeric_limits<T>::max()) {
+    return next(value) && lowest <= value && value <= highest;
+  }
+  template <class T, class Wrong>
+  [[gnu::always_inline]] bool next_index(T& value, std::string_view what, std::int64_t lowest, std::int64_t highest,
+                                         const Wrong& /*wrong*/) {
+    return next_whole(value, what, lowest, highest);
+  }
+
+  template <class Message>
+  static bool fail(const Message& /*message*/) {
+    return false;
+  }
+  template <class Message>
+  static bool fail_at_next(std::string_view /*what*/, const Message& /*message*/) {
+    return false;
   }
 
   /// Passes the next number where it is written as `expected` has it, and nothing otherwise: next() may read it then.
