@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "trismooth/mesh_io/adcirc/adcirc_boundary.h"
-#include "trismooth/mesh_io/document/boundary_edges.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/boundary_edges.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 
 namespace trismooth {
 

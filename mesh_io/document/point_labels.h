@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/flat_points.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/document/point_labels.h"

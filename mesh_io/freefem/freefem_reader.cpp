@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/document/cells/uniform_cells.h"
 #include "trismooth/mesh_io/document/integer_array.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
-#include "trismooth/mesh_io/document/uniform_cells.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/careful_numbers.h"
 #include "trismooth/mesh_io/text/number_text.h"

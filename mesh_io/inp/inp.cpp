@@ -5,7 +5,7 @@
 #include <string>
 
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/inp/inp_element_types.h"
 #include "trismooth/mesh_io/inp/inp_names.h"

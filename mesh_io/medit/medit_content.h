@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/medit/medit_keywords.h"
 #include "trismooth/mesh_io/mesh_document.h"
 

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/document/cells/uniform_cells.h"
 #include "trismooth/mesh_io/document/integer_array.h"
-#include "trismooth/mesh_io/document/uniform_cells.h"
 
 namespace trismooth {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/mfem/mfem_geometry.h"
 #include "trismooth/mesh_io/mfem/mfem_reader.h"

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/msh/msh_element_types.h"
 #include "trismooth/mesh_io/msh/msh_fields.h"

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/annotation_names.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/msh/msh_data.h"

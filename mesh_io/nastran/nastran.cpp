@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/nastran/nastran_card.h"
 #include "trismooth/mesh_io/nastran/nastran_elements.h"

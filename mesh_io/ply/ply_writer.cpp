@@ -12,8 +12,8 @@
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
+#include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/document/free_names.h"
-#include "trismooth/mesh_io/document/other_cells.h"
 #include "trismooth/mesh_io/ply/ply.h"
 #include "trismooth/mesh_io/ply/ply_header.h"
 

@@ -5,7 +5,7 @@
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
-#include "trismooth/mesh_io/document/other_cells.h"
+#include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/stl/point_welder.h"
 #include "trismooth/mesh_io/stl/stl.h"
 #include "trismooth/mesh_io/text/text_block.h"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "trismooth/mesh_io/document/boundary_edges.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/boundary_edges.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/flat_points.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/document/free_names.h"

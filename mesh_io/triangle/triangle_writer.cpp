@@ -7,7 +7,7 @@
 #include <iterator>
 #include <span>
 
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/flat_points.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/text/text_mesh_writer.h"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_mesh_writer.h"

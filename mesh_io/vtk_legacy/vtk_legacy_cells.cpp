@@ -4,7 +4,7 @@
 #include <string>
 
 #include "trismooth/mesh_io/bytes/shared_resize.h"
-#include "trismooth/mesh_io/document/cell_size.h"
+#include "trismooth/mesh_io/document/cells/cell_size.h"
 
 namespace trismooth {
 

@@ -11,7 +11,7 @@
 
 #include "trismooth/mesh_io/bytes/exact_integers.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
-#include "trismooth/mesh_io/document/cell_size.h"
+#include "trismooth/mesh_io/document/cells/cell_size.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_attributes.h"
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_cells.h"

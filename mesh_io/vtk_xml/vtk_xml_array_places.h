@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/file_workers.h"
-#include "trismooth/mesh_io/vtk_xml/encoded_bytes.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/encoded_bytes.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 #include "trismooth/mesh_io/vtk_xml/xml_tree.h"
 

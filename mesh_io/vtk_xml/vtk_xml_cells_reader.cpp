@@ -11,7 +11,7 @@
 #include <vtkUnsignedCharArray.h>
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
-#include "trismooth/mesh_io/document/cell_size.h"
+#include "trismooth/mesh_io/document/cells/cell_size.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"

@@ -11,7 +11,7 @@
 #include "trismooth/base/digits.h"
 #include "trismooth/base/plain_name.h"
 #include "trismooth/mesh_io/annotation_names.h"
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/pipeline/input/value_numbers.h"
 
 namespace trismooth {

@@ -7,9 +7,9 @@
 #include "trismooth/base/counted.h"
 #include "trismooth/base/relaxed_atomics.h"
 #include "trismooth/base/workers.h"
-#include "trismooth/mesh_io/document/collapsed_quads.h"
-#include "trismooth/mesh_io/document/lagrange_cells.h"
-#include "trismooth/mesh_io/document/strip_triangles.h"
+#include "trismooth/mesh_io/document/cells/collapsed_quads.h"
+#include "trismooth/mesh_io/document/cells/lagrange_cells.h"
+#include "trismooth/mesh_io/document/cells/strip_triangles.h"
 
 namespace trismooth {
 

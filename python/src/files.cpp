@@ -16,7 +16,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "trismooth/base/workers.h"
-#include "trismooth/mesh_io/document/lagrange_cells.h"
+#include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/paper/bench_command.h"

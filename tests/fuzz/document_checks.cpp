@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/mesh_io/document/straight_cells.h"
+#include "trismooth/mesh_io/document/cells/straight_cells.h"
 
 #include "broken.h"
 #include "support/format_sample.h"

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/boundary_edges.h"
+#include "trismooth/mesh_io/document/cells/boundary_edges.h"
 
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/straight_cells.h"
+#include "trismooth/mesh_io/document/cells/straight_cells.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/document/collapsed_quads.h"
-#include "trismooth/mesh_io/document/lagrange_cells.h"
+#include "trismooth/mesh_io/document/cells/collapsed_quads.h"
+#include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include "catch.h"

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_xml/vtk_base64_stream.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/vtk_base64_stream.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -11,7 +11,7 @@
 #include <vtkBase64OutputStream.h>
 #include <vtkNew.h>
 
-#include "trismooth/mesh_io/vtk_xml/base64.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/base64.h"
 
 #include "catch.h"
 

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "trismooth/mesh_io/vtk_xml/encoded_bytes.h"
-#include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/encoded_bytes.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/vtk_compressor.h"
 
 namespace accepted_files::vtk {
 

@@ -11,7 +11,7 @@
 
 #include "trismooth/base/cell_list.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
-#include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/vtk_compressor.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 
 #include "support/accepted_vtk_files.h"

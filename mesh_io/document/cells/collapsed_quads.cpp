@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/collapsed_quads.h"
+#include "trismooth/mesh_io/document/cells/collapsed_quads.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/other_cells.h"
+#include "trismooth/mesh_io/document/cells/other_cells.h"
 
 #include <algorithm>
 #include <array>

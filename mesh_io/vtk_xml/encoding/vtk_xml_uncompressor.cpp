@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_xml/vtk_xml_uncompressor.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/vtk_xml_uncompressor.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "trismooth/mesh_io/bytes/saturating_product.h"
-#include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/vtk_compressor.h"
 
 namespace trismooth {
 

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_xml/vtk_base64_stream.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/vtk_base64_stream.h"
 
 #include <algorithm>
 #include <cstring>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "trismooth/mesh_io/vtk_xml/base64.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/base64.h"
 
 namespace trismooth {
 

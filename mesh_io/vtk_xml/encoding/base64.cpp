@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_xml/base64.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/base64.h"
 
 #include <array>
 #include <cstring>

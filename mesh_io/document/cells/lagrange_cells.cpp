@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/lagrange_cells.h"
+#include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 
 namespace trismooth {
 

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/cell_size.h"
+#include "trismooth/mesh_io/document/cells/cell_size.h"
 
 #include "trismooth/base/counted.h"
 

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/uniform_cells.h"
+#include "trismooth/mesh_io/document/cells/uniform_cells.h"
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_xml/output_stream_buffer.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/output_stream_buffer.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -10,7 +10,7 @@
 
 #include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
-#include "trismooth/mesh_io/vtk_xml/encoded_bytes.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/encoded_bytes.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_array_places.h"
 #include "trismooth/mesh_io/vtk_xml/xml_tree.h"

@@ -1,10 +1,10 @@
-#include "trismooth/mesh_io/vtk_xml/encoded_bytes.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/encoded_bytes.h"
 
 #include <algorithm>
 #include <cstring>
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
-#include "trismooth/mesh_io/vtk_xml/base64.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/base64.h"
 
 namespace trismooth {
 

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/vtk_xml/vtk_compressor.h"
+#include "trismooth/mesh_io/vtk_xml/encoding/vtk_compressor.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/strip_triangles.h"
+#include "trismooth/mesh_io/document/cells/strip_triangles.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/document/straight_cells.h"
+#include "trismooth/mesh_io/document/cells/straight_cells.h"
 
 #include <algorithm>
 #include <cstddef>
