@@ -13,25 +13,24 @@
 namespace trismooth::mpi {
 
 /// The way between the vertices as a rank's caller lists them and the rank's overlap, where their owners have them.
-/// All functions but local_count() are collective.
 class Callers {
  public:
-  /// Of no vertex.
+  /// Of no vertex. Local.
   Callers() = default;
 
   /// `own_numbers`: for each local vertex its number in the overlap where this rank owns it, else not_own.
   /// `to_owners`: the local vertices that other ranks own, by these ranks. `from_callers`: own vertices that other
-  /// ranks list, by these ranks, in the order of what they have in `to_owners`. Not collective.
+  /// ranks list, by these ranks, in the order of what they have in `to_owners`. Local.
   Callers(BulkVector<std::int32_t> own_numbers, ByRank<std::int32_t> to_owners, ByRank<std::int32_t> from_callers);
 
   static constexpr std::int32_t not_own = -1;
 
-  /// Vertices that this rank's caller lists.
+  /// Vertices that this rank's caller lists. Local.
   std::size_t local_count() const { return local_count_; }
 
   /// What the callers say of own vertices, `local` of this rank's: writes it to `all`, one value a vertex of the
   /// overlap, of which ghosts stay as they are. Where several ranks list a vertex, join(vertex, value, other) brings in
-  /// what another one says; it may throw, as in Communicator::on_all().
+  /// what another one says; it may throw, as in Communicator::on_all(). Collective.
   template <class V, class Join>
   void bring_to_owners(std::span<const V> local, std::span<V> all, const Join& join, const Communicator& ranks,
                        Workers& workers) const {
@@ -58,7 +57,7 @@ class Callers {
     });
   }
 
-  /// The other way: gives the callers, in `local`, what own vertices have in `all`.
+  /// The other way: gives the callers, in `local`, what own vertices have in `all`. Collective.
   template <class V>
   void hand_back(std::span<const V> all, std::span<V> local, const Communicator& ranks, Workers& workers) const {
     const ByRank<V> received = ranks.exchanged(values_of(from_callers_, all), to_counts_);
@@ -71,7 +70,7 @@ class Callers {
   }
 
   /// Tells all who list a vertex that went back, in their own numbers. `reverted`: of own vertices, ascending.
-  /// Ascending again.
+  /// Ascending again. Collective.
   std::vector<RevertedVertex> named(std::span<const RevertedVertex> reverted, const Communicator& ranks) const;
 
  private:

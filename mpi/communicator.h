@@ -33,46 +33,54 @@ struct KnownToAll : std::exception {
 /// being handled. Returns the exit code of the job. Throws nothing.
 using LastWords = int (*)(int rank);
 
-/// Says it on standard error: "trismooth: rank 3: out of memory". Returns 1.
+/// Says it on standard error: "trismooth: rank 3: out of memory". Returns 1. Local.
 int say_failure(int rank);
 
-/// Ends all ranks, as MPI_Abort(), once a launcher has had the time to pass on what has been said.
+/// Ends all ranks, as MPI_Abort(), once a launcher has had the time to pass on what has been said. Local.
 [[noreturn]] void end_all(MPI_Comm communicator, int exit_code);
 
 /// The ranks that work together, on a communicator of their own: a copy of the caller's, whose messages nobody else
-/// receives. All functions but rank() and size() are collective.
+/// receives.
 class Communicator {
  public:
-  /// Throws std::logic_error where MPI has not been initialised, or is finished.
+  /// Throws std::logic_error where MPI has not been initialised, or is finished. Collective.
   explicit Communicator(MPI_Comm caller, LastWords last_words = &say_failure);
   Communicator(const Communicator&) = delete;
   Communicator& operator=(const Communicator&) = delete;
+  /// Collective. After MPI_Finalize() it does nothing.
   ~Communicator();
 
+  /// The number of this rank, from 0. Local.
   int rank() const { return rank_; }
+  /// How many ranks there are. Local.
   int size() const { return size_; }
-  /// Threads of a rank: as many as are asked for; for 0 its share of the cores of its machine, one at least.
+  /// Threads of a rank: as many as are asked for; for 0 its share of the cores of its machine, one at least. Local.
   int threads(int asked) const;
-  /// This rank's place among those that share its machine, from 0.
+  /// This rank's place among those that share its machine, from 0. Local.
   int place_on_machine() const { return place_on_machine_; }
+  /// That of the copy, which it keeps. Local.
   MPI_Comm handle() const { return communicator_; }
 
+  /// Sums and extremes of all ranks, on all of them: PartSums::join(). Collective.
   PartSums joined(PartSums own) const;
+  /// The sum over all ranks, on all of them. Collective.
   std::int64_t sum(std::int64_t own) const;
-  /// Each becomes the sum over the ranks; as many on all of them.
+  /// Each becomes the sum over the ranks; as many on all of them. Collective.
   void sum(std::span<std::int64_t> own) const;
+  /// The largest of all ranks, on all of them. Collective.
   std::int64_t largest(std::int64_t own) const;
+  /// Whether it is so on any rank, on all of them. Collective.
   bool any(bool own) const { return sum(own ? 1 : 0) > 0; }
-  /// The sum over the ranks before this one.
+  /// The sum over the ranks before this one. Collective.
   std::int64_t sum_before(std::int64_t own) const;
 
   /// Calls `work` on every rank, which is to do nothing collective. If it throws anywhere, this throws KnownToAll
-  /// everywhere: the error of the lowest of these ranks, as `errors` say; std::bad_alloc as OutOfMemory.
+  /// everywhere: the error of the lowest of these ranks, as `errors` say; std::bad_alloc as OutOfMemory. Collective.
   void on_all(const std::function<void()>& work, const ErrorKinds& errors = library_errors()) const;
 
-  /// How much comes from every rank, where `counts` go to each.
+  /// How much comes from every rank, where `counts` go to each. Collective.
   std::vector<std::int64_t> exchanged_counts(std::span<const std::int64_t> counts) const;
-  /// Sends to every rank what is for it. Complexity: what is sent and received, and linear in the ranks.
+  /// Sends to every rank what is for it. Collective. Complexity: what is sent and received, and linear in the ranks.
   template <class V>
   ByRank<V> exchanged(ByRank<V> to) const {
     std::vector<std::int64_t> counts(static_cast<std::size_t>(size_));
@@ -81,7 +89,8 @@ class Communicator {
     }
     return exchanged(std::move(to), exchanged_counts(counts));
   }
-  /// The same where it is known how much comes from every rank: nobody is asked for that.
+  /// Sends to every rank what is for it, where it is known how much comes from every rank: `counts`, so that nobody is
+  /// asked for that. Collective.
   template <class V>
   ByRank<V> exchanged(ByRank<V> to, std::span<const std::int64_t> counts) const {
     static_assert(std::is_trivially_copyable_v<V>);
@@ -101,7 +110,7 @@ class Communicator {
     return from;
   }
 
-  /// Gives all ranks what rank 0 has.
+  /// Gives all ranks what rank 0 has. Collective.
   template <class V>
   void broadcast(std::vector<V>& values) const {
     static_assert(std::is_trivially_copyable_v<V>);
@@ -117,7 +126,7 @@ class Communicator {
 
   /// Calls a collective function, and throws what it throws as KnownToAll. Anything else, memory that is used up above
   /// all, has happened on this rank, at whatever place: the others wait for it at another one, and cannot be told any
-  /// more. It ends them all, with the last words, by MPI_Abort(); where there are no others it is thrown.
+  /// more. It ends them all, with the last words, by MPI_Abort(); where there are no others it is thrown. Collective.
   template <class Function>
   auto together(const Function& function) const {
     try {
@@ -151,7 +160,7 @@ class Communicator {
   MPI_Op join_ = MPI_OP_NULL;
 };
 
-/// The lengths of lists.
+/// The lengths of lists. Local.
 template <class V>
 std::vector<std::int64_t> lengths_of(const ByRank<V>& lists) {
   std::vector<std::int64_t> lengths;
@@ -161,7 +170,7 @@ std::vector<std::int64_t> lengths_of(const ByRank<V>& lists) {
   return lengths;
 }
 
-/// Lists for as many ranks, with nothing in them.
+/// Lists for as many ranks, with nothing in them. Local.
 template <class V>
 ByRank<V> lists_by_rank(const Communicator& communicator) {
   return ByRank<V>(static_cast<std::size_t>(communicator.size()));

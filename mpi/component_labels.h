@@ -25,7 +25,7 @@ struct ComponentLink {
   std::int32_t other;
   std::uint8_t parity;  ///< 1 where their lowest triangles are listed against each other
 
-  /// The same on both sides.
+  /// The same on both sides. Local.
   [[nodiscard]] std::tuple<std::int32_t, std::int32_t, std::uint8_t> key(bool own_first) const {
     return own_first ? std::tuple(own, other, parity) : std::tuple(other, own, parity);
   }
@@ -35,7 +35,7 @@ struct ComponentLink {
 /// lowest triangle for a label.
 class ComponentLabels {
  public:
-  /// Of no triangle.
+  /// Of no triangle. Local.
   ComponentLabels() = default;
 
   /// `components`: those of the overlap, found without edges between two ghosts. Collective. Throws MeshError on all

@@ -8,7 +8,7 @@
 
 namespace trismooth::mpi {
 
-/// The rank that is asked about an id: ids are scattered over all ranks, so none has to know them all.
+/// The rank that is asked about an id: ids are scattered over all ranks, so none has to know them all. Local.
 int home_of(std::int64_t id, const Communicator& communicator);
 
 /// The owner of each of this rank's vertices. `claimed`: what the rank says of each itself, empty: nothing; then it is

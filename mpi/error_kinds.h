@@ -13,7 +13,7 @@ struct ErrorKind {
   std::exception_ptr (*made_of)(const std::string& message);  ///< the error that they throw
 };
 
-/// That of a type which is made from its message.
+/// That of a type which is made from its message. Local.
 template <class Error>
 constexpr ErrorKind error_kind() {
   return {[](const std::exception& error) { return dynamic_cast<const Error*>(&error) != nullptr; },
@@ -28,7 +28,7 @@ struct ErrorKinds {
   bool names_rank = false;  ///< "rank 3: " stands in front of messages, where there are several
 };
 
-/// Those of the library: std::invalid_argument, MeshError and DeviceError, with the rank's number.
+/// Those of the library: std::invalid_argument, MeshError and DeviceError, with the rank's number. Local.
 const ErrorKinds& library_errors();
 
 }  // namespace trismooth::mpi

@@ -11,10 +11,10 @@ namespace trismooth::mpi {
 /// Brings ghosts what their owners have, in the numbers of a part.
 class GhostValues {
  public:
-  /// `part` may go afterwards, but for its links.
+  /// `part` may go afterwards, but for its links. Local.
   explicit GhostValues(const MeshPart& part) : messages_(part.messages()), exchange_(part.ghost_exchange()) {}
 
-  /// `values`: one a vertex of the part. Collective.
+  /// Gives ghosts the values of their owners. `values`: one a vertex of the part. Collective.
   template <class V>
   void update(std::span<V> values) {
     messages_.start(exchange_, std::span<const V>(values));

@@ -22,14 +22,14 @@ class LabelForest {
     std::uint8_t parity;  ///< 1 where their triangles are listed against each other
   };
 
-  /// Of these labels, each a tree of its own. Collective, as all functions are.
+  /// Of these labels, each a tree of its own. Collective.
   LabelForest(std::span<const ComponentLabel> labels, const Communicator& ranks);
 
   /// Hooks roots: of each label under one of the lower ones that `hooks` of all ranks say. What they say beyond that is
-  /// found again with the new labels.
+  /// found again with the new labels. Collective.
   void join(std::span<const Hook> hooks, const Communicator& ranks);
 
-  /// Brings the labels, which are roots or were before join(), to their roots.
+  /// Brings the labels, which are roots or were before join(), to their roots. Collective.
   void look_up(std::span<ComponentLabel> labels, const Communicator& ranks) const;
 
  private:

@@ -16,13 +16,19 @@ namespace trismooth::mpi {
 /// Ghosts' values and sums by MPI. Parts are ranks.
 class Links final : public PartLinks {
  public:
+  /// Of these ranks. Local.
   explicit Links(std::shared_ptr<const Communicator> communicator);
+  /// Local.
   ~Links() override;
 
+  /// Begins to send and to receive. Collective between neighbours: whom a message is for calls it as well.
   void start(std::span<const Message> sends, std::span<const Message> receives) override;
+  /// Waits for all that was started. Collective between neighbours.
   void finish() override;
+  /// Joins the sums of all ranks. Collective.
   void join(PartSums& sums) override;
 
+  /// What this rank has sent so far. Local.
   const Traffic& traffic() const { return traffic_; }
 
  private:

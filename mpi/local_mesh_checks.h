@@ -10,7 +10,7 @@ namespace trismooth::mpi {
 
 /// Checks what can be wrong with what one rank hands in, whatever the others have. `triangles`: those of `mesh`;
 /// `ranks`: how many there are. Throws MeshError and std::invalid_argument as build_overlap() says. Complexity: linear
-/// where ids ascend, else n log n.
+/// where ids ascend, else n log n. Local.
 void check_local_mesh(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
                       int ranks);
 

@@ -41,15 +41,17 @@ struct Overlap {
 
   Callers callers;
 
+  /// Whether this rank owns a vertex of the overlap. Local.
   bool is_own(std::int32_t v) const { return part.ghosts[static_cast<std::size_t>(v)] == 0; }
+  /// Vertices of the overlap, ghosts among them. Local.
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(ids.size()); }
 };
 
 /// Builds it from what all ranks have. `triangles`: those of `mesh`. `is_gathered`: rank 0 owns all vertices, whatever
-/// `mesh` says. Collective. Throws MeshError and
-/// std::invalid_argument on all ranks, for what is wrong on one of them or between them: as SmoothingPlan does, and for
-/// ids that are negative or there twice, owners that are no ranks or that ranks disagree about, and triangles that two
-/// ranks have and none calls a ghost. Complexity: n log n in what the rank has.
+/// `mesh` says. Collective. Throws MeshError and std::invalid_argument on all ranks, for what is wrong on one of them
+/// or between them: as SmoothingPlan does, and for ids that are negative or there twice, owners that are no ranks or
+/// that ranks disagree about, and triangles that two ranks have and none calls a ghost. Complexity: n log n in what the
+/// rank has.
 Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
                       bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers);
 

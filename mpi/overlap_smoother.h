@@ -28,30 +28,34 @@
 
 namespace trismooth::mpi {
 
-/// Smooths the meshes whose overlap it has: what a Plan is once its overlap is built. Functions are collective and
-/// throw as Plan's do, as KnownToAll.
+/// Smooths the meshes whose overlap it has: what a Plan is once its overlap is built. Functions throw as Plan's do, as
+/// KnownToAll.
 class OverlapSmoother {
  public:
   /// Whether rank 0 owns all vertices, and smooths alone.
   enum class Owners : std::uint8_t { ranks, first };
 
-  /// `options`: see agreed_options(). `slide`: what Constraints::slide was where rank 0
-  /// owns all; lines and links are the overlap's.
+  /// `options`: see agreed_options(). `slide`: what Constraints::slide was where rank 0 owns all; lines and links are
+  /// the overlap's. Collective.
   OverlapSmoother(std::shared_ptr<const Communicator> communicator, Overlap overlap, const SmoothingOptions& options,
                   const Sliding& slide, Gather gather, Owners owners);
   OverlapSmoother(const OverlapSmoother&) = delete;
   OverlapSmoother& operator=(const OverlapSmoother&) = delete;
   ~OverlapSmoother() = default;
 
-  /// As Plan::smooth().
+  /// As Plan::smooth(). Collective.
   SmoothingResult smooth(const PointView& points, Storage storage);
 
+  /// The ranks. Local.
   const Communicator& communicator() const { return *communicator_; }
+  /// What this rank has sent so far. Local.
   Traffic traffic() const;
+  /// Vertices that this rank owns. Local.
   std::int64_t own_vertices() const;
+  /// Vertices of others that it holds a copy of. Local.
   std::int64_t ghost_vertices() const { return std::ssize(overlap_.ids) - own_vertices(); }
 
-  /// Gives the overlap back, but for its owners, and is of no more use. Not collective.
+  /// Gives the overlap back, but for its owners, and is of no more use. Local.
   Overlap take_overlap();
 
  private:
@@ -100,7 +104,7 @@ class OverlapSmoother {
 };
 
 /// The options as they are used on a rank, its threads counted. Throws on all ranks what Plan's constructor throws for
-/// options, and for a backend that is not ready.
+/// options, and for a backend that is not ready. Collective.
 SmoothingOptions agreed_options(const SmoothingOptions& options, const Constraints& constraints, Gather gather,
                                 const Communicator& ranks);
 

@@ -27,11 +27,11 @@ enum class Gather : std::uint8_t {
 /// cutting: every vertex is moved by the rank that owns it, and what the others see of it are its values. Nothing is
 /// held of the whole mesh on any rank, unless Gather allows it.
 ///
-/// All functions are collective over the ranks of the communicator: all ranks call them in the same order. An error on
-/// one of them is thrown on all of them, of the same type, with the rank's number in front; coordinates of all ranks
-/// are untouched then. MPI is called on the thread that calls (MPI_THREAD_FUNNELED will do), on a copy of the
-/// communicator. What cannot be told to the others any more (no memory left in the middle of a sweep, a message that
-/// MPI fails to deliver) ends them all, by MPI_Abort().
+/// Functions are collective over the ranks of the communicator, but for those that say otherwise: all ranks call them
+/// in the same order. An error on one of them is thrown on all of them, of the same type, with the rank's number in
+/// front; coordinates of all ranks are untouched then. MPI is called on the thread that calls (MPI_THREAD_FUNNELED will
+/// do), on a copy of the communicator. What cannot be told to the others any more (no memory left in the middle of a
+/// sweep, a message that MPI fails to deliver) ends them all, by MPI_Abort().
 ///
 /// Methods, forms, precisions, constraints, regions, target lengths and the guard are those of SmoothingPlan. Sliding
 /// (Constraints::slide), and untangling of a mesh that has inverted triangles (without any,
@@ -46,15 +46,15 @@ class [[nodiscard]] Plan {
   /// progress, whose "stop" from any rank stops all. Throws as SmoothingPlan does, and std::invalid_argument for ids
   /// that are negative or twice on a rank, owners that are no ranks or that ranks disagree about, triangles that two
   /// ranks have and none calls a ghost, options that differ; std::logic_error where MPI is not initialised. Complexity:
-  /// n log n in what the rank has.
+  /// n log n in what the rank has. Collective.
   Plan(MPI_Comm communicator, const LocalMesh& mesh, const Constraints& constraints,
        const SmoothingOptions& options = {}, Gather gather = Gather::never);
-  /// The same without constraints.
+  /// A plan without constraints: all else as above. Collective.
   Plan(MPI_Comm communicator, const LocalMesh& mesh, const SmoothingOptions& options = {},
        Gather gather = Gather::never);
   Plan(Plan&&) noexcept;
   Plan& operator=(Plan&&) noexcept;
-  /// Collective as well. After MPI_Finalize() it frees memory alone.
+  /// Collective. After MPI_Finalize() it frees memory alone.
   ~Plan();
 
   /// Smooths the local points in place, one for each local vertex, copies of other ranks' vertices included: these must
@@ -62,21 +62,21 @@ class [[nodiscard]] Plan {
   /// SmoothingPlan::smooth(). Of the result, `reverted` lists the local vertices that went back, on every rank that has
   /// them, UntanglingResult::turned is not filled, and processor, threads and timings are the rank's; all else is of
   /// the whole mesh, the same on all ranks. Where the mesh is gathered (see Gather), rank 0's progress callback alone
-  /// is called.
+  /// is called. Collective.
   SmoothingResult smooth(const PointView& points, Storage storage = Storage::float64);
 
-  /// The same for a plain array of float or double: x and y of every local vertex.
+  /// Smooths the points of a plain array of float or double: x and y of every local vertex. Collective.
   template <array_layout::CoordinateNumbers R>
   SmoothingResult smooth(R&& xy, Storage storage = Storage::float64) {
     return smooth(xy_points(xy), storage);
   }
 
   /// What this rank has sent while it smoothed, since the plan was made. Throws std::logic_error where the plan was
-  /// moved from, as the following do.
+  /// moved from. Local.
   [[nodiscard]] Traffic traffic() const;
-  /// Vertices that this rank owns.
+  /// Vertices that this rank owns. Throws std::logic_error where the plan was moved from. Local.
   [[nodiscard]] std::int64_t own_vertices() const;
-  /// Vertices of others that it holds a copy of.
+  /// Vertices of others that it holds a copy of. Throws std::logic_error where the plan was moved from. Local.
   [[nodiscard]] std::int64_t ghost_vertices() const;
 
  private:

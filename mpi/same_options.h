@@ -16,7 +16,7 @@ namespace trismooth::mpi {
 using OptionValue = std::pair<std::string, std::int64_t>;
 
 /// Those that have to be the same on all ranks. Threads, target lengths, progress and the lines and links to slide on
-/// may differ.
+/// may differ. Local.
 std::vector<OptionValue> option_values(const SmoothingOptions& options, const Sliding& slide);
 
 /// Throws std::invalid_argument on all ranks, naming the first option that is not the same on all of them. `values`: of

@@ -30,14 +30,14 @@ struct OwnedId {
   auto operator<=>(const OwnedId&) const = default;
 };
 
-/// Sorts them, and leaves each there once.
+/// Sorts them, and leaves each there once. Local.
 void sort_uniquely(BulkVector<OwnedId>& vertices);
 
-/// What stands for the i-th triangle that was received, where those of the caller have their numbers.
+/// What stands for the i-th triangle that was received, where those of the caller have their numbers. Local.
 constexpr std::int32_t received_place(std::size_t i) {
   return -1 - static_cast<std::int32_t>(i);
 }
-/// The other way.
+/// Which of the received triangles a received_place() stands for. Local.
 constexpr std::size_t received_number(std::int32_t place) {
   return static_cast<std::size_t>(-1 - place);
 }
@@ -50,11 +50,10 @@ struct TrianglesAround {
   BulkVector<OwnedId> foreign;  ///< the corners of received ones that other ranks own
 };
 
-/// Sends the triangles of all ranks to the owners of their corners. `triangles`: those of `mesh`, whose copies
-/// are left out.
-/// `has_ids`: they have ids, on all ranks; else they are numbered rank by rank. `regions`: one a triangle, or none.
-/// `owners`: the rank that owns each local vertex. Collective. Throws std::invalid_argument on all ranks for an id that
-/// is there twice. Complexity: linear in what the rank has and receives, n log n where ids do not ascend.
+/// Sends the triangles of all ranks to the owners of their corners. `triangles`: those of `mesh`, whose copies are left
+/// out. `has_ids`: they have ids, on all ranks; else they are numbered rank by rank. `regions`: one a triangle, or
+/// none. `owners`: the rank that owns each local vertex. Collective. Throws std::invalid_argument on all ranks for an
+/// id that is there twice. Complexity: linear in what the rank has and receives, n log n where ids do not ascend.
 TrianglesAround exchange_triangles(const LocalMesh& mesh, std::span<const Triangle> triangles, bool has_ids,
                                    std::span<const std::int32_t> regions, std::span<const std::int32_t> owners,
                                    const Communicator& ranks);

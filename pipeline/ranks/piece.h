@@ -42,20 +42,20 @@ struct OwnCells {
   std::int64_t first_repeating = -1;  ///< the first of these, or none
 };
 
-/// Counts them. Complexity: linear.
+/// Counts the piece's. Local. Complexity: linear.
 OwnCells count_own_cells(const Piece& piece);
 
 /// The number of a cell of the piece in the one file that pieces are of, or else among those of all pieces, copies left
-/// out, where `before` come before the piece's. Complexity: linear in the cells before it.
+/// out, where `before` come before the piece's. Local. Complexity: linear in the cells before it.
 std::int64_t number_of_cell(const Piece& piece, std::int64_t cell, std::int64_t before);
 
-/// Whether it has any points or cells.
+/// Whether it has any points or cells. Local.
 bool holds_something(const Piece& piece);
 
 /// The cell array that says which cells are copies.
 inline constexpr std::string_view ghost_flags_name = "vtkGhostType";
 
-/// Marks the cells that it tells to be copies.
+/// One flag a cell, 1 where the array of that name tells it to be a copy. Local.
 std::vector<std::uint8_t> ghost_cells_of(const MeshDocument& document);
 
 }  // namespace trismooth

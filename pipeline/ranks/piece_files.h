@@ -42,25 +42,26 @@ struct PieceFiles {
   /// Of one file that was handed out: the numbers in it of points that the user names by labels, on rank 0.
   std::vector<std::int64_t> labelled;
 
-  /// Whether pieces know the numbers of cells in the one file that they are of.
+  /// Whether pieces know the numbers of cells in the one file that they are of. Local.
   bool know_cell_ids() const {
     return std::ranges::any_of(pieces, [](const Piece& piece) { return !piece.cell_ids.empty(); });
   }
+  /// The file of a piece, by its number among those of the parallel file. Local.
   std::filesystem::path path_of(std::size_t piece) const { return piece_path(path, file.pieces[piece].source); }
 };
 
-/// The coordinates and the arrays of a piece.
+/// The coordinates and the arrays of a piece. Local.
 std::vector<PieceArray> arrays_of_piece(const MeshDocument& document);
 
 /// Reads it, and checks that all pieces have the same arrays. Collective. Throws ReadError on all ranks.
 PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicator& ranks, Workers& workers);
 
 /// Where the pieces of `output` are to be, from its folder: those of the input itself where it is written back, else
-/// new files beside `output`, called after it.
+/// new files beside `output`, called after it. Local.
 std::vector<std::string> output_sources(const PieceFiles& files, const std::filesystem::path& output);
 
 /// Throws std::invalid_argument where writing the pieces of `output`, or `output` itself where it is a `single` file,
-/// would overwrite those of another file, the input.
+/// would overwrite those of another file, the input. Local.
 void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output, bool single);
 
 /// Writes the pieces with their points as they are now and with Piece::added, and the parallel file, of which no other
@@ -73,7 +74,7 @@ void write_pieces(PieceFiles& files, const std::filesystem::path& output, const 
                   const BesideOutput& beside);
 
 /// Takes annotations of an earlier run out of all pieces, and has none of them be written. Answers their names, those
-/// of cells first, the same on all ranks.
+/// of cells first, the same on all ranks. Local.
 std::vector<std::string> drop_annotations(PieceFiles& files);
 
 /// Has rank 0 tell `beside` the result. Collective. Throws what `beside` throws, on all ranks.

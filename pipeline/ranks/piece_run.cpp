@@ -58,28 +58,6 @@ bool is_file(const std::filesystem::path& path) {
 /// What stands for a rank that has the whole mesh anyway, where the serial run has nothing to share.
 constexpr std::string_view is_alone = "the only rank";
 
-/// Whether the vertices of the rank's pieces are numbered from 0 on. A mesh that is gathered is; where ids are missing,
-/// that is another mesh.
-bool are_numbered_without_gaps(const PieceFiles& files) {
-  std::size_t points = 0;
-  for (const Piece& piece : files.pieces) {
-    points += piece.ids.size();
-  }
-  std::vector<std::uint8_t> is_there(points, 0);
-  std::size_t end = 0;
-  for (const Piece& piece : files.pieces) {
-    for (const std::int64_t id : piece.ids) {
-      const auto place = static_cast<std::size_t>(id);
-      if (place >= points) {
-        return false;
-      }
-      is_there[place] = 1;
-      end = std::max(end, place + 1);
-    }
-  }
-  return std::ranges::count(is_there, 1) == static_cast<std::ptrdiff_t>(end);
-}
-
 /// One run: the stages in their order, as those of run_pipeline().
 class PieceRun {
  public:

@@ -12,7 +12,7 @@ namespace trismooth {
 /// places of memory, not one for each halving of the list.
 class PlaceIndex {
  public:
-  /// The numbers outlive it. Complexity: linear; memory of 4 bytes for every 8 numbers.
+  /// The numbers outlive it. Complexity: linear; memory of 4 bytes for every 8 numbers. Local.
   explicit PlaceIndex(std::span<const std::int64_t> numbers) : numbers_(numbers) {
     if (numbers.empty()) {
       return;
@@ -31,7 +31,7 @@ class PlaceIndex {
     }
   }
 
-  /// The place of a number that is in the list. Complexity: logarithmic in the numbers near it.
+  /// The place of a number that is in the list. Complexity: logarithmic in the numbers near it. Local.
   std::int32_t place_of(std::int64_t number) const {
     const std::size_t bucket = bucket_of(number);
     const auto begin = numbers_.begin() + begins_[bucket];

@@ -112,6 +112,26 @@ std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communic
   return heights_differ(files, ranks) ? "a mesh that lies in no plane z = constant" : "";
 }
 
+bool are_numbered_without_gaps(const PieceFiles& files) {
+  std::size_t points = 0;
+  for (const Piece& piece : files.pieces) {
+    points += piece.ids.size();
+  }
+  std::vector<std::uint8_t> is_there(points, 0);
+  std::size_t end = 0;
+  for (const Piece& piece : files.pieces) {
+    for (const std::int64_t id : piece.ids) {
+      const auto place = static_cast<std::size_t>(id);
+      if (place >= points) {
+        return false;
+      }
+      is_there[place] = 1;
+      end = std::max(end, place + 1);
+    }
+  }
+  return std::ranges::count(is_there, 1) == static_cast<std::ptrdiff_t>(end);
+}
+
 RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks) {
   RankMesh mesh;
   mesh.storage = storage_of_pieces(files, ranks);

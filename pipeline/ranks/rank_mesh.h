@@ -41,6 +41,10 @@ struct RankMesh {
 /// Empty where nothing does. Collective.
 std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks);
 
+/// Whether the vertices of the rank's pieces are numbered from 0 on, with no number missing. A mesh that is gathered
+/// is; where ids are missing, that is another mesh. Local.
+bool are_numbered_without_gaps(const PieceFiles& files);
+
 /// Puts the rank's pieces, of which what_is_not_joined() says nothing, together, and numbers their points
 /// (Piece::vertices). Points of the pieces' planar meshes, which the documents have, are given up. Collective. Throws
 /// ReadError on all ranks for more than 32 bits number.

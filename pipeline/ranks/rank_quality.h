@@ -18,20 +18,22 @@ namespace trismooth {
 /// Reports on the whole mesh. Triangles go to the ranks in blocks by their numbers, whoever has them, and what blocks
 /// contribute is added up from rank to rank in the order of the blocks: every figure is that of the reports of the mesh
 /// as one file, to the bit, for every number of ranks. Corners travel in rounds, so that no rank ever has those of all
-/// its triangles. Collective. All points are of the overlap, in a local frame.
+/// its triangles. All points are of the overlap, in a local frame.
 class RankQuality {
  public:
   /// All is of the overlap. `reversed` and `held` as RankTopology has them; `regions`: a number a triangle, or none.
-  /// The topology and `reversed` outlive it.
+  /// The topology and `reversed` outlive it. Collective.
   RankQuality(const RankTopology& topology, std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> held,
               std::span<const std::int32_t> regions, std::int32_t region_count);
 
-  /// WorstElement::triangle is a number in the whole mesh, and the centroid in the units of the file.
+  /// WorstElement::triangle is a number in the whole mesh, and the centroid in the units of the file. Collective.
   QualityReport report(std::span<const Point2<double>> points, const LocalFrame& frame, int threads) const;
-  /// Of each region; empty where there are no two.
+  /// Of each region; empty where there are no two. Collective.
   std::vector<RegionQuality> regions(std::span<const Point2<double>> points) const;
+  /// How sizes changed: size_change(). Collective.
   SizeChange size_change(std::span<const Point2<double>> before, const LocalFrame& frame_before,
                          std::span<const Point2<double>> after, const LocalFrame& frame_after, int threads) const;
+  /// What single precision loses: single_precision_loss(). Collective.
   PrecisionLoss precision_loss(std::span<const Point2<double>> points, int exponent, int threads) const;
 
  private:

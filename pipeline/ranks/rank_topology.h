@@ -19,20 +19,23 @@
 namespace trismooth {
 
 /// How the whole mesh hangs together, as far as a rank needs it to report on it: the vertices that it owns with all of
-/// their triangles. All functions are collective unless they say otherwise.
+/// their triangles.
 class RankTopology {
  public:
   /// `named`: one flag a vertex of `mesh`, not zero where the user holds it. `owners`: as mpi::LocalMesh has them.
-  /// Throws ReadError naming `path` on all ranks for triangles that are no mesh.
+  /// Throws ReadError naming `path` on all ranks for triangles that are no mesh. Collective.
   RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> named, std::span<const std::int32_t> owners,
                const std::filesystem::path& path, std::shared_ptr<const mpi::Communicator> ranks, Workers& workers);
 
+  /// The ranks. Local.
   const mpi::Communicator& ranks() const { return *ranks_; }
+  /// The rank's vertices with their triangles. Local.
   const mpi::Overlap& overlap() const { return overlap_; }
+  /// How the triangles of the overlap hang together. Local.
   const TriangleTopology& topology() const { return topology_; }
 
   /// What the vertices of the overlap have, from what those of the rank's mesh do. Who has a vertex says the same, or
-  /// numbers whose bits are joined.
+  /// numbers whose bits are joined. Collective.
   template <class V>
   std::vector<V> of_vertices(std::span<const V> values) const {
     std::vector<V> all(overlap_.ids.size());
@@ -50,34 +53,34 @@ class RankTopology {
   }
 
   /// How many vertices of the whole mesh have a flag that is not zero. `flags`: one a vertex of the rank's mesh.
+  /// Collective.
   std::int64_t count_vertices(std::span<const std::uint8_t> flags) const;
 
-  /// Triangles of the whole mesh.
+  /// Triangles of the whole mesh. Local.
   std::int64_t triangle_count() const { return triangle_count_; }
-  /// Triangles of the rank's mesh that are no copies. Not collective, like the following two.
+  /// Triangles of the rank's mesh that are no copies. Local.
   std::size_t own_triangles() const { return own_count_; }
-  /// The number of one of them in the whole mesh; it ascends.
+  /// The number of one of these in the whole mesh; it ascends. Local.
   std::int64_t own_id(std::size_t own_triangle) const {
     return triangle_ids_.empty() ? first_id_ + static_cast<std::int64_t>(own_triangle) : triangle_ids_[own_triangle];
   }
-  /// The triangle of the rank's mesh whose number in the whole mesh that is; -1: it is none of its own.
+  /// The triangle of the rank's mesh whose number in the whole mesh that is; -1: it is none of its own. Local.
   std::int32_t local_triangle(std::int64_t id) const;
-  /// Whether this rank is the one of those that have the triangle which counts it. Not collective.
+  /// Whether this rank is the one of those that have the triangle which counts it. Local.
   bool counts(std::size_t triangle) const;
 
   /// Why each vertex of the overlap is held, bits of namespace hold. `regions`: one number a triangle of the overlap;
-  /// empty: there are none.
+  /// empty: there are none. Collective.
   std::vector<std::uint8_t> held(std::span<const std::int32_t> regions, Workers& workers) const;
-  /// The local frame of the vertices that cells use.
+  /// The local frame of the vertices that cells use. Collective.
   LocalFrame frame_of(std::span<const Point2<double>> points, std::span<const std::uint8_t> held) const;
-  /// One flag a triangle of the overlap: 1 where it is listed clockwise in the consistent orientation.
+  /// One flag a triangle of the overlap: 1 where it is listed clockwise in the consistent orientation. Collective.
   std::vector<std::uint8_t> reversed(std::span<const Point2<double>> local, Workers& workers) const;
 
   /// Hands out the overlap, with those regions of triangles and what is held for all of these reasons, for who
-  /// smooths it, and gives up topology() and all that is found by it: held(), reversed(). Not collective, like the
-  /// next.
+  /// smooths it, and gives up topology() and all that is found by it: held(), reversed(). Local.
   mpi::Overlap lend_overlap(std::vector<std::int32_t> regions, std::span<const std::uint8_t> held);
-  /// Takes it back: all that is asked of the overlap can be asked again.
+  /// Takes the overlap back: all that is asked of it can be asked again. Local.
   void take_back(mpi::Overlap overlap) { overlap_ = std::move(overlap); }
 
  private:

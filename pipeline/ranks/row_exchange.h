@@ -43,6 +43,14 @@ std::vector<V> concatenated(mpi::ByRank<V> lists) {
   return all;
 }
 
+/// What each rank has, on rank 0; nothing on the others. Collective.
+template <class V>
+mpi::ByRank<V> on_first(std::vector<V> own, const mpi::Communicator& ranks) {
+  auto sent = mpi::lists_by_rank<V>(ranks);
+  sent[0] = std::move(own);
+  return ranks.exchanged(std::move(sent));
+}
+
 /// Bytes of the values of one point or cell. Local.
 inline std::size_t row_size_of(const DataArray& array) {
   return array.components * size_of(array.type);

@@ -15,6 +15,7 @@ namespace trismooth {
 
 /// Calls `work` on every rank, which is to do nothing collective; true on all ranks where it answers true and throws
 /// nothing on any. What it throws is for whoever reads the file in another way to find again, and to say.
+/// Collective.
 template <class Work>
 bool works_on_all(const mpi::Communicator& ranks, const Work& work) {
   bool works = false;
@@ -26,7 +27,7 @@ bool works_on_all(const mpi::Communicator& ranks, const Work& work) {
   return !ranks.any(!works);
 }
 
-/// Which of `count` things are a rank's: equally many for all but for one.
+/// Which of `count` things are a rank's: equally many for all but for one. Local.
 inline NumberRange range_of_rank(std::uint64_t count, const mpi::Communicator& ranks) {
   const auto size = static_cast<std::uint64_t>(ranks.size());
   const auto rank = static_cast<std::uint64_t>(ranks.rank());
@@ -42,15 +43,15 @@ inline NumberRange range_of_rank(std::uint64_t count, const mpi::Communicator& r
 std::optional<MeshShare> read_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                     Workers& workers);
 
-/// The same of an OFF text. A rank's lines are those that begin in its part of the bytes.
+/// read_share() of an OFF text. A rank's lines are those that begin in its part of the bytes. Collective.
 std::optional<MeshShare> read_off_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                         Workers& workers);
 
-/// The same of a binary MSH file.
+/// read_share() of a binary MSH file. Collective.
 std::optional<MeshShare> read_msh_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                         Workers& workers);
 
-/// The same of a .vtu file whose arrays are raw in the appended section.
+/// read_share() of a .vtu file whose arrays are raw in the appended section. Collective.
 std::optional<MeshShare> read_vtu_share(const std::filesystem::path& path, const mpi::Communicator& ranks,
                                         Workers& workers);
 

@@ -14,7 +14,7 @@ namespace trismooth {
 /// The way from the triangles of the ranks' meshes to those of their overlaps.
 class TriangleLinks {
  public:
-  /// The topology outlives it. Not collective: ranks agree on the way where it is first needed.
+  /// The topology outlives it. Ranks agree on the way where it is first needed. Local.
   explicit TriangleLinks(const RankTopology& topology) : topology_(topology), ranks_(topology.ranks()) {}
 
   /// What the triangles of the overlap have, from what those of the rank's mesh do; copies have no say. Collective.
@@ -46,8 +46,9 @@ class TriangleLinks {
     mpi::ByRank<std::int32_t> asked;   ///< triangles of the rank's mesh, by the rank that wants to know
   };
 
+  /// Collective.
   Lists find_lists() const;
-  /// For each triangle of the overlap the rank in whose pieces it is.
+  /// For each triangle of the overlap the rank in whose pieces it is. Collective.
   std::vector<std::int32_t> holders() const;
 
   const RankTopology& topology_;

@@ -195,7 +195,8 @@ class SameAsOneFile(ranks_tool.RanksTest):
                 outcome = self.run_over(ranks, "smooth", path, "no" + path[-5:], "--fixed-set", name, expect=2)
                 errors.append(self.errors_of(outcome))
                 self.assertEqual(len(errors[-1]), 1, outcome)
-            self.assertEqual(errors[1], errors[2])
+            # (What marks copies is an array of the pieces alone.)
+            self.assertEqual(errors[1], [error.replace("vtkGhostType, ", "") for error in errors[2]])
             if name == "kind=99":
                 self.assertEqual(errors[0], errors[1])
                 self.assertIn("'kind' has: 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 15", errors[1][0])
