@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <iterator>
 
 #include "trismooth/base/counting_sort.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/region_part.h"
 
 namespace trismooth {
 
@@ -21,28 +22,15 @@ struct Chunk {
   std::size_t end;
 };
 
-constexpr std::size_t chunk_size = 1024;
+constexpr auto chunk_size = static_cast<std::size_t>(RegionPart::triangles_a_chunk);
 
-/// What a chunk, or several in order, contribute; `mean_shape` is the sum as yet.
-void append(RegionQuality& total, const RegionQuality& next) {
-  total.triangles += next.triangles;
-  total.inverted += next.inverted;
-  total.min_shape = std::min(total.min_shape, next.min_shape);
-  total.mean_shape += next.mean_shape;
-  total.min_angle = std::min(total.min_angle, next.min_angle);
-}
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr RegionQuality nothing{0, 0, unbounded, 0, unbounded};
-
-RegionQuality quality_of(const TriangleView& view, std::span<const std::int32_t> members) {
-  RegionQuality quality = nothing;
+RegionPart part_of(const TriangleView& view, std::span<const std::int32_t> members) {
+  RegionPart part;
   for (const std::int32_t triangle : members) {
     const auto [a, b, c] = corner_points(view, static_cast<std::size_t>(triangle));
-    const double shape = evaluate(Metric::shape, a, b, c);
-    append(quality, {1, shape < 0 ? 1 : 0, shape, shape, evaluate(Metric::min_angle, a, b, c)});
+    part.add(evaluate(Metric::shape, a, b, c), evaluate(Metric::min_angle, a, b, c));
   }
-  return quality;
+  return part;
 }
 
 }  // namespace
@@ -63,24 +51,19 @@ std::vector<RegionQuality> region_quality(const TriangleView& view, std::span<co
       chunks.push_back({r, begin, std::min(begin + chunk_size, end)});
     }
   }
-  std::vector<RegionQuality> partials(chunks.size());
+  std::vector<RegionPart> partials(chunks.size());
   workers.for_blocks(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      partials[i] = quality_of(view, std::span(members).subspan(chunks[i].begin, chunks[i].end - chunks[i].begin));
+      partials[i] = part_of(view, std::span(members).subspan(chunks[i].begin, chunks[i].end - chunks[i].begin));
     }
   });
 
-  std::vector<RegionQuality> regions(static_cast<std::size_t>(region_count), nothing);
+  std::vector<RegionPart> parts(static_cast<std::size_t>(region_count));
   for (std::size_t i = 0; i < chunks.size(); ++i) {
-    append(regions[chunks[i].region], partials[i]);
+    parts[chunks[i].region].append(partials[i]);
   }
-  for (RegionQuality& region : regions) {
-    if (region.triangles == 0) {
-      region.min_shape = region.mean_shape = region.min_angle = std::numeric_limits<double>::quiet_NaN();
-    } else {
-      region.mean_shape /= static_cast<double>(region.triangles);
-    }
-  }
+  std::vector<RegionQuality> regions;
+  std::ranges::transform(parts, std::back_inserter(regions), &RegionPart::quality);
   return regions;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "trismooth/quality/area_ratios.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_part.h"
+#include "trismooth/quality/region_part.h"
 
 namespace trismooth {
 
@@ -80,35 +82,6 @@ double percentile_of_all(std::span<const double> ratios, std::int64_t total, std
   }
   return std::bit_cast<double>(prefix);
 }
-
-/// What has been added up of a region. Shapes are added up in chunks of that many triangles of the region, and chunks
-/// to the total, as region_quality() does it.
-struct RegionSums {
-  RegionQuality total{0, 0, std::numeric_limits<double>::infinity(), 0, std::numeric_limits<double>::infinity()};
-  double chunk = 0;
-
-  void add(double shape, double angle) {
-    ++total.triangles;
-    total.inverted += shape < 0 ? 1 : 0;
-    total.min_shape = std::min(total.min_shape, shape);
-    total.min_angle = std::min(total.min_angle, angle);
-    chunk += shape;
-    if (total.triangles % block_size == 0) {
-      total.mean_shape += std::exchange(chunk, 0.0);
-    }
-  }
-
-  RegionQuality quality() const {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (total.triangles == 0) {
-      return {0, 0, nan, nan, nan};
-    }
-    const double sum = total.triangles % block_size == 0 ? total.mean_shape : total.mean_shape + chunk;
-    RegionQuality quality = total;
-    quality.mean_shape = sum / static_cast<double>(total.triangles);
-    return quality;
-  }
-};
 
 }  // namespace
 
@@ -271,15 +244,13 @@ std::vector<RegionQuality> RankQuality::regions(std::span<const Point2<double>> 
       values.push_back({value(Metric::shape), value(Metric::min_angle)});
     }
   });
-  const std::vector<RegionSums> sums = passed_on(
-      std::vector<RegionSums>(static_cast<std::size_t>(region_count_)), ranks_, [&](std::vector<RegionSums>& states) {
+  const std::vector<RegionPart> parts = passed_on(
+      std::vector<RegionPart>(static_cast<std::size_t>(region_count_)), ranks_, [&](std::vector<RegionPart>& states) {
         for (std::size_t t = 0; t < values.size(); ++t) {
           states[static_cast<std::size_t>(regions_[t])].add(values[t][0], values[t][1]);
         }
       });
-  for (const RegionSums& of_region : sums) {
-    qualities.push_back(of_region.quality());
-  }
+  std::ranges::transform(parts, std::back_inserter(qualities), &RegionPart::quality);
   return qualities;
 }
 
