@@ -12,7 +12,7 @@
 #include <mpi.h>
 
 #include "trismooth/mpi/error_kinds.h"
-#include "trismooth/smoothing/parts/part_links.h"
+#include "trismooth/smoothing/parts/part_messenger.h"
 
 namespace trismooth::mpi {
 

@@ -21,8 +21,8 @@ struct Named {
   std::uint8_t parity;
 };
 
-/// The links with every rank, in an order that both sides have.
-std::vector<std::vector<ComponentLink>> find_links(const Overlap& overlap, const TriangleComponents& components,
+/// The joins with every rank, in an order that both sides have.
+std::vector<std::vector<ComponentJoin>> find_joins(const Overlap& overlap, const TriangleComponents& components,
                                                    const Communicator& ranks) {
   // A triangle is known to those who own its vertices.
   auto named = lists_by_rank<Named>(ranks);
@@ -39,21 +39,21 @@ std::vector<std::vector<ComponentLink>> find_links(const Overlap& overlap, const
     }
   }
   const ByRank<Named> others = ranks.exchanged(std::vector(named));
-  std::vector<std::vector<ComponentLink>> links(named.size());
+  std::vector<std::vector<ComponentJoin>> joins(named.size());
   for (std::size_t r = 0; r < named.size(); ++r) {
-    std::vector<ComponentLink>& with = links[r];
+    std::vector<ComponentJoin>& with = joins[r];
     for (std::size_t i = 0; i < named[r].size(); ++i) {
       with.push_back({named[r][i].component, others[r][i].component,
                       static_cast<std::uint8_t>(named[r][i].parity ^ others[r][i].parity)});
     }
     const bool own_first = ranks.rank() < static_cast<int>(r);
-    const auto key = [own_first](const ComponentLink& link) { return link.key(own_first); };
+    const auto key = [own_first](const ComponentJoin& join) { return join.key(own_first); };
     std::ranges::sort(with, {}, key);
     with.erase(std::unique(with.begin(), with.end(),
-                           [&](const ComponentLink& a, const ComponentLink& b) { return key(a) == key(b); }),
+                           [&](const ComponentJoin& a, const ComponentJoin& b) { return key(a) == key(b); }),
                with.end());
   }
-  return links;
+  return joins;
 }
 
 constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();  // no triangle
@@ -97,18 +97,18 @@ ComponentLabels::ComponentLabels(const Overlap& overlap, const TriangleComponent
       label.triangle = overlap.triangle_ids[t];
     }
   }
-  const std::vector<std::vector<ComponentLink>> links = find_links(overlap, components, ranks);
+  const std::vector<std::vector<ComponentJoin>> joins = find_joins(overlap, components, ranks);
   LabelForest forest(labels_, ranks);
   for (;;) {
-    // What is on the other side of every link, and how it stands to the label here.
-    const ByRank<ComponentLabel> others = told_over(links, ranks);
+    // What is on the other side of every join, and how it stands to the label here.
+    const ByRank<ComponentLabel> others = told_over(joins, ranks);
     bool is_contradicted = false;
     std::vector<LabelForest::Hook> hooks;
-    for (std::size_t r = 0; r < links.size(); ++r) {
-      for (std::size_t i = 0; i < links[r].size(); ++i) {
-        const ComponentLabel& own = labels_[static_cast<std::size_t>(links[r][i].own)];
+    for (std::size_t r = 0; r < joins.size(); ++r) {
+      for (std::size_t i = 0; i < joins[r].size(); ++i) {
+        const ComponentLabel& own = labels_[static_cast<std::size_t>(joins[r][i].own)];
         const ComponentLabel& other = others[r][i];
-        const auto parity = static_cast<std::uint8_t>(own.parity ^ links[r][i].parity ^ other.parity);
+        const auto parity = static_cast<std::uint8_t>(own.parity ^ joins[r][i].parity ^ other.parity);
         if (own.triangle != other.triangle) {
           hooks.push_back({std::max(own.triangle, other.triangle), std::min(own.triangle, other.triangle), parity});
         } else if (parity != 0) {
@@ -135,14 +135,14 @@ ComponentLabels::ComponentLabels(const Overlap& overlap, const TriangleComponent
   from_ranks_ = ranks.exchanged_counts(to_homes_);
 }
 
-ByRank<ComponentLabel> ComponentLabels::told_over(const std::vector<std::vector<ComponentLink>>& links,
+ByRank<ComponentLabel> ComponentLabels::told_over(const std::vector<std::vector<ComponentJoin>>& joins,
                                                   const Communicator& ranks) const {
   auto told = lists_by_rank<ComponentLabel>(ranks);
   std::vector<std::int64_t> counts(told.size(), 0);
-  for (std::size_t r = 0; r < links.size(); ++r) {
-    counts[r] = std::ssize(links[r]);
-    for (const ComponentLink& link : links[r]) {
-      told[r].push_back(labels_[static_cast<std::size_t>(link.own)]);
+  for (std::size_t r = 0; r < joins.size(); ++r) {
+    counts[r] = std::ssize(joins[r]);
+    for (const ComponentJoin& join : joins[r]) {
+      told[r].push_back(labels_[static_cast<std::size_t>(join.own)]);
     }
   }
   return ranks.exchanged(std::move(told), counts);

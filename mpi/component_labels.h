@@ -20,7 +20,7 @@ struct ComponentLabel {
 };
 
 /// A component here and one on another rank that have a triangle in common.
-struct ComponentLink {
+struct ComponentJoin {
   std::int32_t own;
   std::int32_t other;
   std::uint8_t parity;  ///< 1 where their lowest triangles are listed against each other
@@ -50,8 +50,8 @@ class ComponentLabels {
                                      Workers& workers) const;
 
  private:
-  /// What the other sides of the links have for labels.
-  ByRank<ComponentLabel> told_over(const std::vector<std::vector<ComponentLink>>& links,
+  /// What the other sides of the joins have for labels.
+  ByRank<ComponentLabel> told_over(const std::vector<std::vector<ComponentJoin>>& joins,
                                    const Communicator& ranks) const;
 
   std::vector<ComponentLabel> labels_;

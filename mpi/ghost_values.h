@@ -11,7 +11,7 @@ namespace trismooth::mpi {
 /// Brings ghosts what their owners have, in the numbers of a part.
 class GhostValues {
  public:
-  /// `part` may go afterwards, but for its links. Local.
+  /// `part` may go afterwards, but for its messenger. Local.
   explicit GhostValues(const MeshPart& part) : messages_(part.messages()), exchange_(part.ghost_exchange()) {}
 
   /// Gives ghosts the values of their owners. `values`: one a vertex of the part. Collective.

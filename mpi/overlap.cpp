@@ -13,8 +13,8 @@
 #include "trismooth/base/release.h"
 #include "trismooth/base/workers.h"
 #include "trismooth/mpi/directory.h"
-#include "trismooth/mpi/links.h"
 #include "trismooth/mpi/local_mesh_checks.h"
+#include "trismooth/mpi/messenger.h"
 #include "trismooth/mpi/triangle_exchange.h"
 
 namespace trismooth::mpi {
@@ -39,7 +39,7 @@ class OverlapBuilder {
         is_gathered_(is_gathered),
         ranks_(*communicator),
         workers_(workers),
-        links_(std::make_shared<Links>(std::move(communicator))) {}
+        messenger_(std::make_shared<Messenger>(std::move(communicator))) {}
 
   Overlap run() {
     ranks_.on_all([&] { check_local_mesh(mesh_, triangles_, constraints_, ranks_.size()); });
@@ -51,7 +51,7 @@ class OverlapBuilder {
     send_vertices();
     around_ = exchange_triangles(mesh_, triangles_, has_triangle_ids_, constraints_.regions, owners_, ranks_);
     overlap_.triangle_ids = std::move(around_.ids);
-    overlap_.part.links = links_;
+    overlap_.part.messenger = messenger_;
     number_vertices();
     join_flags();
     list_triangles();
@@ -312,7 +312,7 @@ class OverlapBuilder {
   bool is_gathered_;
   const Communicator& ranks_;
   Workers& workers_;
-  std::shared_ptr<Links> links_;
+  std::shared_ptr<Messenger> messenger_;
   bool has_triangle_ids_ = false;
   bool has_regions_ = false;
   std::vector<std::int32_t> owners_;          ///< of local vertices

@@ -8,7 +8,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/release.h"
-#include "trismooth/mpi/links.h"
+#include "trismooth/mpi/messenger.h"
 #include "trismooth/mpi/rank_layers.h"
 #include "trismooth/mpi/same_options.h"
 #include "trismooth/mpi/shared_frame.h"
@@ -336,7 +336,7 @@ SmoothingResult OverlapSmoother::smoothed_gathered(std::span<Point2<double>> min
 }
 
 Traffic OverlapSmoother::traffic() const {
-  return static_cast<const Links&>(*overlap_.part.links).traffic();
+  return static_cast<const Messenger&>(*overlap_.part.messenger).traffic();
 }
 
 std::int64_t OverlapSmoother::own_vertices() const {

@@ -58,7 +58,7 @@ V of_first_part(const MeshPart& part, const V& own) {
   for (std::size_t first = 0; first < words.size(); first += PartSums{}.sums.size()) {
     PartSums sums;
     std::copy_n(words.begin() + static_cast<std::ptrdiff_t>(first), sums.sums.size(), sums.sums.begin());
-    part.links->join(sums);
+    part.messenger->join(sums);
     std::ranges::copy(sums.sums, words.begin() + static_cast<std::ptrdiff_t>(first));
   }
   return std::bit_cast<V>(words);
@@ -91,7 +91,7 @@ bool share_a_device(const MeshPart& part) {
     const std::size_t count = std::min(at_a_time, devices.size() - first);
     PartSums sums;
     std::copy_n(devices.begin() + static_cast<std::ptrdiff_t>(first), count, sums.sums.begin());
-    part.links->join(sums);
+    part.messenger->join(sums);
     std::copy_n(sums.sums.begin(), count, devices.begin() + static_cast<std::ptrdiff_t>(first));
   }
   std::ranges::sort(devices);
@@ -106,7 +106,7 @@ std::uint64_t group_of(const MeshPart& part) {
   PartSums sums;
   sums.sums[0] = static_cast<std::int64_t>(splitmix64(splitmix64(process + static_cast<std::uint64_t>(part.number)) +
                                                       static_cast<std::uint64_t>(current_device())));
-  part.links->join(sums);
+  part.messenger->join(sums);
   return static_cast<std::uint64_t>(sums.sums[0]);
 }
 
@@ -132,7 +132,7 @@ nccl::Communicator communicator_of(const nccl::Library& library, const MeshPart&
   // Where it failed on some of them they all make another one.
   PartSums lacking;
   lacking.sums[0] = communicator == nullptr ? 1 : 0;
-  part.links->join(lacking);
+  part.messenger->join(lacking);
   if (lacking.sums[0] == 0) {
     return communicator;
   }
@@ -188,10 +188,10 @@ class NcclTransport final : public GhostTransport {
   bool is_under_way_ = false;
 };
 
-/// By way of the host, and the links between its parts.
+/// By way of the host, and the messengers of its parts.
 class HostTransport final : public GhostTransport {
  public:
-  explicit HostTransport(const MeshPart& part) : links_(*part.links) {}
+  explicit HostTransport(const MeshPart& part) : messenger_(*part.messenger) {}
   ~HostTransport() override {
     cudaFreeHost(out_.bytes);
     cudaFreeHost(in_.bytes);
@@ -210,8 +210,8 @@ class HostTransport final : public GhostTransport {
 
   void finish(cudaStream_t stream) override {
     TRISMOOTH_CUDA_CHECK(cudaStreamSynchronize(side_.get()));
-    links_.start(sends_, receives_);
-    links_.finish();
+    messenger_.start(sends_, receives_);
+    messenger_.finish();
     for (std::size_t i = 0; i < receivers_.size(); ++i) {
       TRISMOOTH_CUDA_CHECK(cudaMemcpyAsync(receivers_[i].bytes, receives_[i].bytes.data(), receivers_[i].size,
                                            cudaMemcpyHostToDevice, side_.get()));
@@ -227,7 +227,7 @@ class HostTransport final : public GhostTransport {
     std::size_t size = 0;
   };
 
-  static std::vector<PartLinks::Message> staged(std::span<const Message> messages, Pinned& memory) {
+  static std::vector<PartMessenger::Message> staged(std::span<const Message> messages, Pinned& memory) {
     std::size_t size = 0;
     for (const Message& message : messages) {
       size += message.size;
@@ -238,7 +238,7 @@ class HostTransport final : public GhostTransport {
       TRISMOOTH_CUDA_CHECK(cudaMallocHost(&bytes, size));
       memory = {static_cast<std::byte*>(bytes), size};
     }
-    std::vector<PartLinks::Message> staged;
+    std::vector<PartMessenger::Message> staged;
     std::byte* place = memory.bytes;
     for (const Message& message : messages) {
       staged.push_back({message.part, {place, message.size}});
@@ -247,12 +247,12 @@ class HostTransport final : public GhostTransport {
     return staged;
   }
 
-  PartLinks& links_;
+  PartMessenger& messenger_;
   SideStream side_;
   Pinned out_;
   Pinned in_;
-  std::vector<PartLinks::Message> sends_;
-  std::vector<PartLinks::Message> receives_;
+  std::vector<PartMessenger::Message> sends_;
+  std::vector<PartMessenger::Message> receives_;
   std::vector<Message> receivers_;
 };
 
@@ -264,7 +264,7 @@ std::unique_ptr<GhostTransport> make_ghost_transport(const MeshPart& part) {
   const bool goes_by_host = wanted != nullptr && std::string_view(wanted) == "host";
   PartSums sums;
   sums.sums[0] = library == nullptr || part.count == 1 || goes_by_host ? 1 : 0;
-  part.links->join(sums);
+  part.messenger->join(sums);
   if (sums.sums[0] > 0 || share_a_device(part)) {
     return std::make_unique<HostTransport>(part);
   }

@@ -19,7 +19,7 @@
 #include "trismooth/pipeline/input/region_judge.h"
 #include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
-#include "trismooth/pipeline/ranks/triangle_links.h"
+#include "trismooth/pipeline/ranks/overlap_triangles.h"
 
 namespace trismooth {
 
@@ -80,8 +80,9 @@ bool is_whole_key(std::uint64_t key, ScalarType type) {
 /// The values of one array at the triangles of all pieces.
 class RankValues {
  public:
-  RankValues(const PieceFiles& files, const PieceArray& array, const RankTopology& topology, TriangleLinks& links)
-      : files_(files), topology_(topology), ranks_(topology.ranks()), links_(links), type_(array.type) {
+  RankValues(const PieceFiles& files, const PieceArray& array, const RankTopology& topology,
+             OverlapTriangles& triangles)
+      : files_(files), topology_(topology), ranks_(topology.ranks()), overlap_triangles_(triangles), type_(array.type) {
     std::size_t count = 0;
     for (const Piece& piece : files.pieces) {
       count += piece.mesh.triangles.size();
@@ -214,7 +215,7 @@ class RankValues {
 
   const std::vector<std::uint64_t>& at_overlap() {
     if (!at_overlap_) {
-      at_overlap_ = links_.of_overlap<std::uint64_t>(keys_);
+      at_overlap_ = overlap_triangles_.of_overlap<std::uint64_t>(keys_);
     }
     return *at_overlap_;
   }
@@ -222,7 +223,7 @@ class RankValues {
   const PieceFiles& files_;
   const RankTopology& topology_;
   const mpi::Communicator& ranks_;
-  TriangleLinks& links_;
+  OverlapTriangles& overlap_triangles_;
   ScalarType type_;
   struct Zero {
     std::size_t own_triangle;
@@ -240,7 +241,7 @@ class RankValues {
 class RankRegionFinder {
  public:
   RankRegionFinder(const PieceFiles& files, const RankTopology& topology)
-      : files_(files), topology_(topology), ranks_(topology.ranks()), links_(topology) {
+      : files_(files), topology_(topology), ranks_(topology.ranks()), overlap_triangles_(topology) {
     for (const PieceArray& array : files.arrays) {
       if (array.of == PieceArray::Of::cells && !array.is_added) {
         candidates_.push_back(&array);
@@ -278,7 +279,7 @@ class RankRegionFinder {
   /// Those of one array at a time are kept.
   RankValues& values_of(const PieceArray& array) {
     if (of_last_ != &array) {
-      last_.emplace(files_, array, topology_, links_);
+      last_.emplace(files_, array, topology_, overlap_triangles_);
       of_last_ = &array;
     }
     return *last_;
@@ -334,7 +335,7 @@ class RankRegionFinder {
   RankRegions take() {
     regions_.names = tell_apart(std::move(names_));
     if (!regions_.arrays.empty()) {
-      regions_.of_overlap = links_.of_overlap<std::int32_t>(of_mesh_);
+      regions_.of_overlap = overlap_triangles_.of_overlap<std::int32_t>(of_mesh_);
     }
     return std::move(regions_);
   }
@@ -379,7 +380,7 @@ class RankRegionFinder {
   const PieceFiles& files_;
   const RankTopology& topology_;
   const mpi::Communicator& ranks_;
-  TriangleLinks links_;
+  OverlapTriangles overlap_triangles_;
   std::vector<const PieceArray*> candidates_;
   std::optional<RankValues> last_;       ///< the values of the array that was asked for last
   const PieceArray* of_last_ = nullptr;  ///< that one

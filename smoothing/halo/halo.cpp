@@ -54,7 +54,7 @@ double least_of_parts(const Halo* halo, double own) {
   }
   PartSums sums;
   sums.largest = {-own, -own};
-  halo->links().join(sums);
+  halo->messenger().join(sums);
   return -sums.largest[0];
 }
 
@@ -64,7 +64,7 @@ std::int64_t sum_of_parts(const Halo* halo, std::int64_t own) {
   }
   PartSums sums;
   sums.sums[0] = own;
-  halo->links().join(sums);
+  halo->messenger().join(sums);
   return sums.sums[0];
 }
 

@@ -16,7 +16,7 @@ class Halo {
  public:
   Halo(const MeshPart& part, const PackedRings& rings);
 
-  PartLinks& links() const { return *part_.links; }
+  PartMessenger& messenger() const { return *part_.messenger; }
   const MeshPart& part() const { return part_; }
   /// Own free vertices that have the ghost (any vertex without a ring) as a neighbour.
   const NumberLists& around_ghosts() const { return around_ghosts_; }

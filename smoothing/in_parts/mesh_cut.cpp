@@ -204,7 +204,7 @@ std::vector<CutPart> cut_into_parts(const MeshRings& mesh, std::span<const Trian
     const auto part = std::make_shared<MeshPart>();
     part->count = team.count();
     part->has_progress = has_progress;
-    part->links = team.links(p);
+    part->messenger = team.messenger(p);
     cut.push_back(cutter.part(p, *part));
     cut.back().mesh.part = part;
     parts.push_back(part);

@@ -26,9 +26,9 @@ struct CutPart {
 };
 
 /// Cuts a mesh into as many parts as the team has, along a Hilbert curve: each gets the same number of free vertices.
-/// Parts know one layer of ghosts, have the colours of the whole, and the team's links. `mesh`: nothing slides in it.
-/// `triangles`, `local`: as Backend::prepare() has them. No result of smoothing depends on where it is cut. Complexity:
-/// linear, times the parts.
+/// Parts know one layer of ghosts, have the colours of the whole, and the team's messengers. `mesh`: nothing slides in
+/// it. `triangles`, `local`: as Backend::prepare() has them. No result of smoothing depends on where it is cut.
+/// Complexity: linear, times the parts.
 std::vector<CutPart> cut_into_parts(const MeshRings& mesh, std::span<const Triangle> triangles,
                                     std::span<const Point2<double>> local, const ThreadTeam& team, bool has_progress,
                                     Workers& workers);

@@ -32,17 +32,17 @@ class ThreadTeam::Meeting {
 
   int count() const { return count_; }
 
-  void post(int from, std::span<const PartLinks::Message> messages) {
+  void post(int from, std::span<const PartMessenger::Message> messages) {
     {
       const std::lock_guard lock(mutex_);
-      for (const PartLinks::Message& message : messages) {
+      for (const PartMessenger::Message& message : messages) {
         mail(from, message.part) = message.bytes;
       }
     }
     changed_.notify_all();
   }
 
-  void take(int to, const PartLinks::Message& message) {
+  void take(int to, const PartMessenger::Message& message) {
     std::span<const std::byte>& place = mail(message.part, to);
     std::span<const std::byte> sent;
     {
@@ -128,9 +128,9 @@ class ThreadTeam::Meeting {
   std::exception_ptr first_error_;
 };
 
-class ThreadTeam::Links final : public PartLinks {
+class ThreadTeam::Messenger final : public PartMessenger {
  public:
-  Links(std::shared_ptr<Meeting> meeting, int part) : meeting_(std::move(meeting)), part_(part) {}
+  Messenger(std::shared_ptr<Meeting> meeting, int part) : meeting_(std::move(meeting)), part_(part) {}
 
   void start(std::span<const Message> sends, std::span<const Message> receives) override {
     sends_.assign(sends.begin(), sends.end());
@@ -167,8 +167,8 @@ int ThreadTeam::count() const {
   return meeting_->count();
 }
 
-std::shared_ptr<PartLinks> ThreadTeam::links(int part) const {
-  return std::make_shared<Links>(meeting_, part);
+std::shared_ptr<PartMessenger> ThreadTeam::messenger(int part) const {
+  return std::make_shared<Messenger>(meeting_, part);
 }
 
 void ThreadTeam::run(const std::function<void(int)>& task) {

@@ -3,11 +3,11 @@
 #include <functional>
 #include <memory>
 
-#include "trismooth/smoothing/parts/part_links.h"
+#include "trismooth/smoothing/parts/part_messenger.h"
 
 namespace trismooth {
 
-/// Threads of this process that smooth the parts of a mesh, one each, and the links between them.
+/// Threads of this process that smooth the parts of a mesh, one each, and the ways between them.
 class ThreadTeam {
  public:
   /// `parts`: one at least.
@@ -18,7 +18,7 @@ class ThreadTeam {
 
   int count() const;
   /// Of a part, from 0; to be used within run() alone.
-  std::shared_ptr<PartLinks> links(int part) const;
+  std::shared_ptr<PartMessenger> messenger(int part) const;
 
   /// Calls task(part) for all parts at the same time: for part 0 on this thread, for each of the others on a thread of
   /// its own. Returns when all have. Where one throws, the others wait for it no longer: what they wait for throws as
@@ -27,7 +27,7 @@ class ThreadTeam {
 
  private:
   class Meeting;
-  class Links;
+  class Messenger;
 
   std::shared_ptr<Meeting> meeting_;
 };

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/smoothing/parts/part_links.h"
+#include "trismooth/smoothing/parts/part_messenger.h"
 #include "trismooth/smoothing/parts/vertex_exchange.h"
 
 namespace trismooth {
@@ -31,7 +31,7 @@ struct MeshPart {
   bool has_progress = false;          ///< some part has a progress callback
   bool is_whole = false;              ///< it is all of the mesh: there are no others to exchange anything with
   std::vector<Neighbour> neighbours;  ///< ascending by part
-  std::shared_ptr<PartLinks> links;
+  std::shared_ptr<PartMessenger> messenger;
 
   /// To exchange with the neighbours.
   [[nodiscard]] VertexMessages messages() const {
@@ -39,7 +39,7 @@ struct MeshPart {
     for (const Neighbour& neighbour : neighbours) {
       parts.push_back(neighbour.part);
     }
-    return {*links, std::move(parts)};
+    return {*messenger, std::move(parts)};
   }
   /// What brings ghosts the values of their owners, in the part's numbers.
   [[nodiscard]] VertexExchange ghost_exchange() const {

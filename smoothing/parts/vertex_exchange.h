@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "trismooth/smoothing/parts/part_links.h"
+#include "trismooth/smoothing/parts/part_messenger.h"
 
 namespace trismooth {
 
@@ -30,7 +30,8 @@ struct VertexExchange {
 class VertexMessages {
  public:
   /// `neighbours`: the parts that the lists are of.
-  VertexMessages(PartLinks& links, std::vector<int> neighbours) : links_(links), neighbours_(std::move(neighbours)) {}
+  VertexMessages(PartMessenger& messenger, std::vector<int> neighbours)
+      : messenger_(messenger), neighbours_(std::move(neighbours)) {}
 
   /// Sends values[v - first] of the vertices v that are to go.
   template <class V>
@@ -43,13 +44,13 @@ class VertexMessages {
       place += sizeof(V);
     }
     in_.resize(sizeof(V) * exchange.receives.vertices.size());
-    links_.start(messages(exchange.sends, out_, sizeof(V)), messages(exchange.receives, in_, sizeof(V)));
+    messenger_.start(messages(exchange.sends, out_, sizeof(V)), messages(exchange.receives, in_, sizeof(V)));
   }
 
   /// Waits for it, and calls take(vertex, value) for what has come.
   template <class V, class Take>
   void finish(const VertexExchange& exchange, const Take& take) {
-    links_.finish();
+    messenger_.finish();
     const std::byte* place = in_.data();
     for (const std::int32_t v : exchange.receives.vertices) {
       V value;
@@ -60,9 +61,9 @@ class VertexMessages {
   }
 
  private:
-  std::vector<PartLinks::Message> messages(const VertexLists& lists, std::vector<std::byte>& bytes,
-                                           std::size_t value_size) const {
-    std::vector<PartLinks::Message> messages;
+  std::vector<PartMessenger::Message> messages(const VertexLists& lists, std::vector<std::byte>& bytes,
+                                               std::size_t value_size) const {
+    std::vector<PartMessenger::Message> messages;
     for (std::size_t i = 0; i < neighbours_.size(); ++i) {
       const std::size_t begin = value_size * lists.begins[i];
       if (const std::size_t size = value_size * lists.begins[i + 1] - begin; size > 0) {
@@ -72,7 +73,7 @@ class VertexMessages {
     return messages;
   }
 
-  PartLinks& links_;
+  PartMessenger& messenger_;
   std::vector<int> neighbours_;
   std::vector<std::byte> out_;
   std::vector<std::byte> in_;

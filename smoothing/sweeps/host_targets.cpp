@@ -35,7 +35,7 @@ MeanRatioSums of_all_parts(const Halo& halo, MeanRatioSums sums) {
   // A key of 0 is none; keys of doubles that are not negative fall as these grow.
   const double nothing = -std::numeric_limits<double>::infinity();
   joined.largest = {sums.worst_quotient == 0 ? nothing : -sums.least_quotient(), nothing};
-  halo.links().join(joined);
+  halo.messenger().join(joined);
   for (std::size_t i = 0; i < places.size(); ++i) {
     *places[i] = static_cast<std::uint64_t>(joined.sums[i]);
   }

@@ -173,7 +173,7 @@ class SweepDriver {
     PartSums sums;
     sums.sums = {tally.evaluated, tally.moved, tally.within_tolerance ? 0 : 1};
     sums.largest = {static_cast<double>(tally.max_relative_squared), seconds};
-    halo_->links().join(sums);
+    halo_->messenger().join(sums);
     tally.evaluated = sums.sums[0];
     tally.moved = sums.sums[1];
     tally.within_tolerance = sums.sums[2] == 0;

@@ -21,12 +21,12 @@ TEST_CASE("every part gets what every other one sends it, round after round") {
   ThreadTeam team(parts);
   std::array<std::int64_t, parts> wrong{};
   team.run([&](int own) {
-    const auto links = team.links(own);
+    const auto messenger = team.messenger(own);
     for (int round = 0; round < 200; ++round) {
       std::array<std::array<int, 3>, parts> out{};
       std::array<std::array<int, 3>, parts> in{};
-      std::vector<PartLinks::Message> sends;
-      std::vector<PartLinks::Message> receives;
+      std::vector<PartMessenger::Message> sends;
+      std::vector<PartMessenger::Message> receives;
       for (int other = 0; other < parts; ++other) {
         // Nothing between some of them in some rounds.
         if (other != own && (other + own + round) % 4 != 0) {
@@ -36,9 +36,9 @@ TEST_CASE("every part gets what every other one sends it, round after round") {
           receives.push_back({other, std::as_writable_bytes(std::span(in[place]))});
         }
       }
-      links->start(sends, receives);
-      links->finish();
-      for (const PartLinks::Message& message : receives) {
+      messenger->start(sends, receives);
+      messenger->finish();
+      for (const PartMessenger::Message& message : receives) {
         const std::array<int, 3> expected{message.part, own, round};
         wrong[static_cast<std::size_t>(own)] += in[static_cast<std::size_t>(message.part)] == expected ? 0 : 1;
       }
@@ -52,12 +52,12 @@ TEST_CASE("sums and largest numbers are those of all parts, on all of them") {
   ThreadTeam team(parts);
   std::atomic<int> wrong{0};
   team.run([&](int own) {
-    const auto links = team.links(own);
+    const auto messenger = team.messenger(own);
     for (int round = 0; round < 500; ++round) {
       PartSums sums;
       sums.sums[0] = own + round;
       sums.largest = {-1.0 * own, 1.0 * own * round};
-      links->join(sums);
+      messenger->join(sums);
       wrong += sums.sums[0] == 6 + 4 * round && sums.largest[0] == 0 && sums.largest[1] == 3.0 * round ? 0 : 1;
     }
   });
@@ -74,17 +74,17 @@ TEST_CASE("where a part fails the others stop waiting, its exception is told, an
         if (own == failing) {
           throw std::domain_error("part " + std::to_string(own));
         }
-        const auto links = team.links(own);
+        const auto messenger = team.messenger(own);
         if (in_messages) {
           std::byte out{};
           std::byte in{};
-          const std::array sends{PartLinks::Message{failing, std::span(&out, 1)}};
-          const std::array receives{PartLinks::Message{failing, std::span(&in, 1)}};
-          links->start(sends, receives);
-          links->finish();
+          const std::array sends{PartMessenger::Message{failing, std::span(&out, 1)}};
+          const std::array receives{PartMessenger::Message{failing, std::span(&in, 1)}};
+          messenger->start(sends, receives);
+          messenger->finish();
         } else {
           PartSums sums;
-          links->join(sums);
+          messenger->join(sums);
         }
         ++gone_on;
       };
@@ -101,7 +101,7 @@ TEST_CASE("where a part fails the others stop waiting, its exception is told, an
     team.run([&](int own) {
       PartSums sums;
       sums.sums[0] = 1;
-      team.links(own)->join(sums);
+      team.messenger(own)->join(sums);
       sum += sums.sums[0];
     });
     CHECK(sum == parts * parts);
@@ -113,7 +113,7 @@ TEST_CASE("what all parts throw at the same time is what the caller gets") {
   for (int round = 0; round < 200; ++round) {
     CHECK_THROWS_AS(team.run([&](int own) {
       PartSums sums;
-      team.links(own)->join(sums);
+      team.messenger(own)->join(sums);
       throw std::domain_error("all");
     }),
                     std::domain_error);

@@ -26,12 +26,12 @@ struct PartSums {
 
 /// The way to those who smooth the other parts of a mesh: MPI's, or whatever else there is. All parts make the same
 /// calls in the same order, on one thread each.
-class PartLinks {
+class PartMessenger {
  public:
-  PartLinks() = default;
-  PartLinks(const PartLinks&) = delete;
-  PartLinks& operator=(const PartLinks&) = delete;
-  virtual ~PartLinks() = default;
+  PartMessenger() = default;
+  PartMessenger(const PartMessenger&) = delete;
+  PartMessenger& operator=(const PartMessenger&) = delete;
+  virtual ~PartMessenger() = default;
 
   /// What goes to a part, or comes from it.
   struct Message {

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/ranks/triangle_links.h"
+#include "trismooth/pipeline/ranks/overlap_triangles.h"
 
 #include <utility>
 
@@ -21,7 +21,7 @@ mpi::ByRank<std::int64_t> by_blocks(const ForEach& for_each, std::int64_t block,
 
 }  // namespace
 
-std::vector<std::int32_t> TriangleLinks::holders() const {
+std::vector<std::int32_t> OverlapTriangles::holders() const {
   // Numbers are shared out in blocks among ranks that keep a list of who has them.
   const std::int64_t block = topology_.triangle_count() / ranks_.size() + 1;
   const auto for_own_ids = [&](const auto& visit) {
@@ -65,7 +65,7 @@ std::vector<std::int32_t> TriangleLinks::holders() const {
   return found;
 }
 
-TriangleLinks::Lists TriangleLinks::find_lists() const {
+OverlapTriangles::Lists OverlapTriangles::find_lists() const {
   Lists lists{mpi::lists_by_rank<std::int32_t>(ranks_), mpi::lists_by_rank<std::int32_t>(ranks_)};
   auto wanted = mpi::lists_by_rank<std::int64_t>(ranks_);
   {

@@ -12,10 +12,10 @@
 namespace trismooth {
 
 /// The way from the triangles of the ranks' meshes to those of their overlaps.
-class TriangleLinks {
+class OverlapTriangles {
  public:
   /// The topology outlives it. Ranks agree on the way where it is first needed. Local.
-  explicit TriangleLinks(const RankTopology& topology) : topology_(topology), ranks_(topology.ranks()) {}
+  explicit OverlapTriangles(const RankTopology& topology) : topology_(topology), ranks_(topology.ranks()) {}
 
   /// What the triangles of the overlap have, from what those of the rank's mesh do; copies have no say. Collective.
   template <class V>

@@ -9,17 +9,17 @@
 
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/traffic.h"
-#include "trismooth/smoothing/parts/part_links.h"
+#include "trismooth/smoothing/parts/part_messenger.h"
 
 namespace trismooth::mpi {
 
 /// Ghosts' values and sums by MPI. Parts are ranks.
-class Links final : public PartLinks {
+class Messenger final : public PartMessenger {
  public:
   /// Of these ranks. Local.
-  explicit Links(std::shared_ptr<const Communicator> communicator);
+  explicit Messenger(std::shared_ptr<const Communicator> communicator);
   /// Local.
-  ~Links() override;
+  ~Messenger() override;
 
   /// Begins to send and to receive. Collective between neighbours: whom a message is for calls it as well.
   void start(std::span<const Message> sends, std::span<const Message> receives) override;

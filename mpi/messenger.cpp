@@ -1,4 +1,4 @@
-#include "trismooth/mpi/links.h"
+#include "trismooth/mpi/messenger.h"
 
 #include <limits>
 #include <stdexcept>
@@ -25,11 +25,11 @@ void check(int code) {
 
 }  // namespace
 
-Links::Links(std::shared_ptr<const Communicator> communicator) : communicator_(std::move(communicator)) {}
+Messenger::Messenger(std::shared_ptr<const Communicator> communicator) : communicator_(std::move(communicator)) {}
 
-Links::~Links() = default;
+Messenger::~Messenger() = default;
 
-void Links::start(std::span<const Message> sends, std::span<const Message> receives) {
+void Messenger::start(std::span<const Message> sends, std::span<const Message> receives) {
   ++traffic_.exchanges;
   for (const Message& message : receives) {
     check(MPI_Irecv(message.bytes.data(), size_of(message.bytes), MPI_BYTE, message.part, halo_tag,
@@ -43,12 +43,12 @@ void Links::start(std::span<const Message> sends, std::span<const Message> recei
   }
 }
 
-void Links::finish() {
+void Messenger::finish() {
   check(MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE));
   requests_.clear();
 }
 
-void Links::join(PartSums& sums) {
+void Messenger::join(PartSums& sums) {
   ++traffic_.joins;
   sums = communicator_->joined(sums);
 }
