@@ -5,10 +5,10 @@
 #include <bit>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/counting_sort.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

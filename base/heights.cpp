@@ -4,9 +4,9 @@
 #include <array>
 #include <cstddef>
 
-#include "trismooth/base/digits.h"
 #include "trismooth/base/errors.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/text/digits.h"
 
 namespace trismooth {
 

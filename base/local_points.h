@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "trismooth/base/box.h"
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
-#include "trismooth/base/joined_blocks.h"
 #include "trismooth/base/local_frame.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/joined_blocks.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/base/host_device.h"
-#include "trismooth/base/relaxed_atomics.h"
+#include "trismooth/base/machine/relaxed_atomics.h"
 
 namespace trismooth {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 namespace trismooth {
 

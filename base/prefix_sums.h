@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/blocks.h"
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/blocks.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 
 namespace trismooth {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <tuple>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

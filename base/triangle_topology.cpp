@@ -8,11 +8,11 @@
 
 #include "trismooth/base/edge_matching.h"
 #include "trismooth/base/errors.h"
+#include "trismooth/base/machine/relaxed_atomics.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/parity_forest.h"
 #include "trismooth/base/prefix_sums.h"
-#include "trismooth/base/relaxed_atomics.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
 

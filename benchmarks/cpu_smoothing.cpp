@@ -12,8 +12,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "trismooth/base/stopwatch.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/stopwatch.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/generate/random_mesh.h"

@@ -23,7 +23,7 @@
 #include <nlohmann/json.hpp>
 
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/generate/random_mesh.h"

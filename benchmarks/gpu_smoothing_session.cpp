@@ -6,7 +6,7 @@
 #include <cuda_runtime_api.h>
 #include <fmt/format.h>
 
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/memory_pool.h"

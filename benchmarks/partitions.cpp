@@ -15,11 +15,11 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/pipeline/ranks/vertex_owners.h"
+#include "trismooth/pipeline/ranks/partition/vertex_owners.h"
 
 namespace {
 

@@ -19,8 +19,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "trismooth/base/processor_name.h"
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/processor_name.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/pipeline/generate/random_document.h"
 #include "trismooth/pipeline/report/spread.h"
 

@@ -27,8 +27,8 @@
 #include <mpi.h>
 #include <nlohmann/json.hpp>
 
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/base/stopwatch.h"
 #ifdef TRISMOOTH_HAS_CUDA
 #include "trismooth/cuda/backend.h"
 #endif

@@ -14,8 +14,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "trismooth/base/processor_name.h"
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/processor_name.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/generate/random_document.h"
 #include "trismooth/pipeline/report/spread.h"

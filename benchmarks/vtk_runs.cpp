@@ -10,7 +10,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
 
 namespace vtk_runs {
 

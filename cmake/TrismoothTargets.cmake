@@ -5,7 +5,7 @@
 # holds one link for each folder.
 set(trismooth_headers "${PROJECT_BINARY_DIR}/include/trismooth")
 file(MAKE_DIRECTORY "${trismooth_headers}")
-foreach(folder IN ITEMS base quality smoothing mesh_io mpi pipeline paper cuda)
+foreach(folder IN ITEMS base space quality smoothing mesh_io mpi pipeline paper cuda)
   file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${trismooth_headers}/${folder}" SYMBOLIC)
 endforeach()
 file(CREATE_LINK "${PROJECT_SOURCE_DIR}/python/src" "${trismooth_headers}/python" SYMBOLIC)

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/overwriting.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/overwriting.h"
-#include "trismooth/base/stopwatch.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/stopwatch.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "trismooth/base/suggestion.h"
+#include "trismooth/base/text/suggestion.h"
 #include "trismooth/mesh_io/bytes/compressed_file.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"

@@ -1,6 +1,6 @@
 #include "trismooth/mesh_io/mesh_document.h"
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 namespace trismooth {
 

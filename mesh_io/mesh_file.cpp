@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/counted.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"

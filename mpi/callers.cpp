@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "trismooth/base/release.h"
+#include "trismooth/base/machine/release.h"
 
 namespace trismooth::mpi {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/smoothing/result.h"
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <thread>
 
-#include "trismooth/base/out_of_memory.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/out_of_memory.h"
+#include "trismooth/base/machine/workers.h"
 
 namespace trismooth::mpi {
 

@@ -5,9 +5,9 @@
 #include <tuple>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/overlap.h"
 

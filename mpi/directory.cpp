@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/release.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/release.h"
 #include "trismooth/base/splitmix64.h"
 
 namespace trismooth::mpi {

@@ -8,10 +8,10 @@
 #include <tuple>
 #include <utility>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
-#include "trismooth/base/release.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/release.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mpi/directory.h"
 #include "trismooth/mpi/local_mesh_checks.h"
 #include "trismooth/mpi/messenger.h"

@@ -7,7 +7,7 @@
 
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/release.h"
+#include "trismooth/base/machine/release.h"
 #include "trismooth/mpi/messenger.h"
 #include "trismooth/mpi/rank_layers.h"
 #include "trismooth/mpi/same_options.h"

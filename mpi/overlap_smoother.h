@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point_view.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/component_labels.h"
 #include "trismooth/mpi/ghost_values.h"

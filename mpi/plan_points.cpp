@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "trismooth/base/digits.h"
 #include "trismooth/base/heights.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/text/digits.h"
 
 namespace trismooth::mpi {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/point_view.h"
 #include "trismooth/base/storage.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/ghost_values.h"
 #include "trismooth/mpi/overlap.h"

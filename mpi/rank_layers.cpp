@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trismooth/base/hold.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/ghost_values.h"
 #include "trismooth/smoothing/layers/layers.h"

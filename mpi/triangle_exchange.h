@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/mpi/ascending_ids.h"
 #include "trismooth/mpi/communicator.h"

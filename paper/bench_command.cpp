@@ -18,8 +18,8 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "trismooth/base/list_text.h"
-#include "trismooth/base/worker_threads.h"
+#include "trismooth/base/machine/worker_threads.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/paper/experiment.h"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/smoothing/errors.h"

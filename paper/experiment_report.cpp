@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/processor_name.h"
+#include "trismooth/base/machine/processor_name.h"
 #include "trismooth/paper/wording.h"
 #include "trismooth/quality/report_text.h"
 #include "trismooth/smoothing/options.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/quality/report_text.h"
 
 namespace trismooth::experiments {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/quality/corner_points.h"

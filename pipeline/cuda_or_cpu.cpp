@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/joined_blocks.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/joined_blocks.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/noted_smoother.h"

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/list_text.h"
-#include "trismooth/base/suggestion.h"
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/base/text/suggestion.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/size_ratio.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "trismooth/base/hold.h"
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/joined_blocks.h"
 
 namespace trismooth {
 

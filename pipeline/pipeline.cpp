@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "trismooth/base/peak_memory.h"
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/peak_memory.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"

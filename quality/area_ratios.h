@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/triangle_view.h"
 
 namespace trismooth {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/digits.h"
 #include "trismooth/base/hold.h"
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/joined_blocks.h"
+#include "trismooth/base/text/digits.h"
 
 namespace trismooth {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "trismooth/base/machine/prefetch.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/prefetch.h"
 #include "trismooth/base/triangle_view.h"
 
 namespace trismooth {

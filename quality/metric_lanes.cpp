@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "trismooth/base/compiled_for.h"
+#include "trismooth/base/machine/compiled_for.h"
 #include "trismooth/quality/metric_formulas.h"
 
 // One loop, which calls the formulas as they are for each lane.

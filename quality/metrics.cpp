@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "trismooth/base/list_text.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/quality/metric_formulas.h"
 #include "trismooth/quality/metric_lanes.h"
 

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
 

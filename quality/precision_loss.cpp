@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "trismooth/base/digits.h"
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/joined_blocks.h"
+#include "trismooth/base/text/digits.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/joined_blocks.h"
 
 namespace trismooth {
 

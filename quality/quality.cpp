@@ -12,9 +12,9 @@
 
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/orientation.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/quality_part.h"

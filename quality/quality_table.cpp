@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/digits.h"
+#include "trismooth/base/text/digits.h"
 #include "trismooth/quality/report_text.h"
 #include "trismooth/quality/size_ratio.h"
 #include "trismooth/quality/text_columns.h"

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "trismooth/base/counting_sort.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/region_part.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trismooth/base/digits.h"
+#include "trismooth/base/text/digits.h"
 
 namespace trismooth {
 

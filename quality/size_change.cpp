@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/quality/area_ratios.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"

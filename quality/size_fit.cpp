@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "trismooth/base/ordered_sum.h"
+#include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {

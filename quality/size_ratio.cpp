@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "trismooth/base/ordered_sum.h"
+#include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/quality/corner_points.h"
 

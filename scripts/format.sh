@@ -29,6 +29,6 @@ if [[ -z $formatter ]]; then
 fi
 
 cd "$project"
-find base quality smoothing mesh_io cuda mpi pipeline paper python tests examples benchmarks -type f \
+find base space quality smoothing mesh_io cuda mpi pipeline paper python tests examples benchmarks -type f \
   \( -name '*.h' -o -name '*.cpp' -o -name '*.cuh' -o -name '*.cu' \) -print0 |
   xargs -0 -r -n 16 -P "$(nproc)" "$formatter" "${mode[@]}"

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/errors.h"
 

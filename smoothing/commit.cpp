@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/stopwatch.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/number_lists.h"
-#include "trismooth/base/stopwatch.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/untangle/untangle_mesh.h"
 

@@ -8,14 +8,14 @@
 #include <type_traits>
 #include <utility>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/prefetch.h"
-#include "trismooth/base/processor_name.h"
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/prefetch.h"
+#include "trismooth/base/machine/processor_name.h"
+#include "trismooth/base/machine/stopwatch.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/storage.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/halo/halo.h"

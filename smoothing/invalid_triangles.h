@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/result.h"
 

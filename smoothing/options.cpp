@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "trismooth/base/worker_threads.h"
+#include "trismooth/base/machine/worker_threads.h"
 
 namespace trismooth {
 

@@ -8,9 +8,9 @@
 
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/release.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/release.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/invalid_triangles.h"

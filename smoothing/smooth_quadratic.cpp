@@ -9,8 +9,8 @@
 
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/commit.h"
 #include "trismooth/smoothing/invalid_triangles.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"

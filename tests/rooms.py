@@ -32,8 +32,9 @@ MAY_USE = {
     "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/guard"],
     "smoothing": SMOOTHING,
     "smoothing/in_parts": SMOOTHING,
+    "space": ["base"],
     "mesh_io": ["base"],
-    "mesh_io/halfedge": SMOOTHING,
+    "mesh_io/halfedge": [*SMOOTHING, "space"],
     "cuda faces": ["base", "smoothing faces"],
 }
 # From the lowest to the highest: each may use those before it.
@@ -61,6 +62,8 @@ def room_of(path):
     if face in FACES:
         return FACES[face]
     folder = path.rsplit("/", 1)[0]
+    if folder.startswith("pipeline/ranks/"):
+        return "pipeline/ranks"
     module = folder.split("/")[0]
     return folder if module in ("smoothing", "cuda") or folder in ("mesh_io/halfedge", "pipeline/ranks") else module
 

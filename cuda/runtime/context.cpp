@@ -6,7 +6,12 @@
 namespace trismooth::cuda {
 
 Context::Context() : pool_(current_pool()) {
-  TRISMOOTH_CUDA_CHECK(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+  const cudaError_t error = cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking);
+  if (error == cudaErrorMemoryAllocation) {
+    cudaGetLastError();
+    throw too_little_memory(mebibytes(1) + " or more", device_memory());
+  }
+  TRISMOOTH_CUDA_CHECK(error);
 }
 
 Context::Context(cudaStream_t stream) : stream_(stream), owns_stream_(false), pool_(current_pool()) {}

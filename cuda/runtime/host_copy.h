@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <span>
 
-#include "trismooth/base/overwriting.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/overwriting.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 

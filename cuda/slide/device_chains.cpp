@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/cuda/runtime/check.h"
 
 namespace trismooth::cuda {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/primitives/gather_bytes.h"
 #include "trismooth/cuda/runtime/check.h"

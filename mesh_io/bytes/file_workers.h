@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 namespace trismooth {
 

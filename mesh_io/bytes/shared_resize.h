@@ -6,7 +6,7 @@
 
 #include <sys/mman.h>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 
 namespace trismooth {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "trismooth/base/plain_name.h"
+#include "trismooth/base/text/plain_name.h"
 #include "trismooth/mesh_io/data_array.h"
 
 namespace trismooth {

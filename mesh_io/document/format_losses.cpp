@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 
 namespace trismooth {
 

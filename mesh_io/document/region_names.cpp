@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "trismooth/base/plain_name.h"
+#include "trismooth/base/text/plain_name.h"
 
 namespace trismooth {
 

@@ -7,13 +7,13 @@
 #include <unordered_set>
 #include <utility>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/errors.h"
 #include "trismooth/base/hold.h"
-#include "trismooth/base/prefetch.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/prefetch.h"
+#include "trismooth/base/machine/relaxed_atomics.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
-#include "trismooth/base/relaxed_atomics.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

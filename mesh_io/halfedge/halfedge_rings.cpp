@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/relaxed_atomics.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/relaxed_atomics.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/layers/layers.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"

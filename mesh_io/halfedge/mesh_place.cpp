@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 namespace trismooth {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "trismooth/base/array_layout.h"
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/cell_list.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/mesh_io/halfedge/plane.h"
+#include "trismooth/space/plane.h"
 
 namespace trismooth {
 

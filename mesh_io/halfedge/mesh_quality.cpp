@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/halfedge/flat_mesh.h"
 #include "trismooth/mesh_io/halfedge/mesh_place.h"
 #include "trismooth/quality/quality.h"

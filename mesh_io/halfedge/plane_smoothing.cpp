@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/backend_choice.h"
 
 namespace trismooth {

@@ -4,13 +4,13 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/mesh_io/halfedge/plane.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/smoothing/commit.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
+#include "trismooth/space/plane.h"
 
 namespace trismooth {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/halfedge/flat_mesh.h"
 #include "trismooth/mesh_io/halfedge/mesh_place.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"

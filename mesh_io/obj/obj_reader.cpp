@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/obj/obj_plain_reader.h"

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/counting_sort.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"

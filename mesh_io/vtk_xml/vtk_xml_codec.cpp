@@ -25,7 +25,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/bytes/shared_blocks.h"

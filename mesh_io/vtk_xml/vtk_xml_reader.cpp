@@ -18,7 +18,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/bytes/exact_integers.h"
 #include "trismooth/mesh_io/document/array_limits.h"
 #include "trismooth/mesh_io/errors.h"

@@ -1,7 +1,7 @@
 #include "trismooth/mesh_io/vtk_xml/xml_names.h"
 
-#include "trismooth/base/markup_entity.h"
-#include "trismooth/base/utf8.h"
+#include "trismooth/base/text/markup_entity.h"
+#include "trismooth/base/text/utf8.h"
 
 namespace trismooth {
 

@@ -17,7 +17,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "trismooth/base/shell_words.h"
 #include "trismooth/mesh_io/vtk_support.h"
 #include "trismooth/pipeline/cli/exit_code.h"
 #include "trismooth/pipeline/cli/failure.h"
@@ -28,6 +27,7 @@
 #include "trismooth/pipeline/cli/rank_job.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/usage_message.h"
+#include "trismooth/pipeline/shell_words.h"
 #include "trismooth/version.h"
 
 namespace trismooth {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "trismooth/base/out_of_memory.h"
+#include "trismooth/base/machine/out_of_memory.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/cli/messages.h"
 #include "trismooth/pipeline/pipeline.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/list_text.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 
 namespace trismooth {

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/instruction_set.h"
-#include "trismooth/base/list_text.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/instruction_set.h"
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/pipeline/cli/rank_job.h"
 #include "trismooth/pipeline/cli/subcommands.h"

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/out_of_memory.h"
-#include "trismooth/base/worker_threads.h"
+#include "trismooth/base/machine/out_of_memory.h"
+#include "trismooth/base/machine/worker_threads.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"

@@ -12,7 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "trismooth/base/enum_text.h"
-#include "trismooth/base/suggestion.h"
+#include "trismooth/base/text/suggestion.h"
 
 namespace trismooth {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "trismooth/base/utf8.h"
+#include "trismooth/base/text/utf8.h"
 #include "trismooth/pipeline/report/printable_text.h"
 
 namespace trismooth {

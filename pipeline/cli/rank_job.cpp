@@ -20,7 +20,7 @@
 #include "trismooth/pipeline/cli/exit_code.h"
 #include "trismooth/pipeline/cli/failure.h"
 #include "trismooth/pipeline/cli/messages.h"
-#include "trismooth/pipeline/ranks/metis_parts.h"
+#include "trismooth/pipeline/ranks/partition/metis_parts.h"
 #include "trismooth/pipeline/ranks/rank_run.h"
 #endif
 

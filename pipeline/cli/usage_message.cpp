@@ -4,8 +4,8 @@
 #include <iterator>
 #include <vector>
 
-#include "trismooth/base/list_text.h"
-#include "trismooth/base/suggestion.h"
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/base/text/suggestion.h"
 
 namespace trismooth {
 

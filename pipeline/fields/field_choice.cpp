@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/suggestion.h"
+#include "trismooth/base/text/suggestion.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/pipeline/fields/name_pattern.h"

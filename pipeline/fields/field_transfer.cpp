@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "trismooth/base/exact_arithmetic.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/pipeline/fields/missing_values.h"
 
 namespace trismooth {

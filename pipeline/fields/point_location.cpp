@@ -4,7 +4,7 @@
 #include <atomic>
 #include <numeric>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/pipeline/fields/triangle_tree.h"
 
 namespace trismooth {

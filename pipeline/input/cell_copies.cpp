@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/counted.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/repeated_triangles.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/pipeline/input/triangle_cells.h"
 
 namespace trismooth {

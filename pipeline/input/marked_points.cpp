@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "trismooth/base/counted.h"
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/region_names.h"
 
 namespace trismooth {

@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "trismooth/base/counted.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/base/text/counted.h"
 
 namespace trismooth {
 

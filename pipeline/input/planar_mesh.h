@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/halfedge/plane.h"
 #include "trismooth/mesh_io/mesh_document.h"
-#include "trismooth/pipeline/geographic/geographic_map.h"
 #include "trismooth/pipeline/input/triangle_cells.h"
 #include "trismooth/smoothing/middle_nodes.h"
+#include "trismooth/space/geographic_map.h"
+#include "trismooth/space/plane.h"
 
 namespace trismooth {
 

@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trismooth/base/plain_name.h"
-#include "trismooth/base/shell_words.h"
+#include "trismooth/base/text/plain_name.h"
 #include "trismooth/pipeline/input/marked_points.h"
 #include "trismooth/pipeline/input/set_labels.h"
 #include "trismooth/pipeline/input/value_numbers.h"
+#include "trismooth/pipeline/shell_words.h"
 
 namespace trismooth {
 

@@ -7,10 +7,10 @@
 #include <unordered_map>
 #include <utility>
 
-#include "trismooth/base/plain_name.h"
-#include "trismooth/base/shell_words.h"
+#include "trismooth/base/text/plain_name.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/region_names.h"
+#include "trismooth/pipeline/shell_words.h"
 
 namespace trismooth {
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "trismooth/base/digits.h"
-#include "trismooth/base/plain_name.h"
+#include "trismooth/base/text/digits.h"
+#include "trismooth/base/text/plain_name.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/pipeline/input/value_numbers.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"

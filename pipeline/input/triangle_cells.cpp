@@ -4,9 +4,9 @@
 #include <atomic>
 #include <cstddef>
 
-#include "trismooth/base/counted.h"
-#include "trismooth/base/relaxed_atomics.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/relaxed_atomics.h"
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/cells/collapsed_quads.h"
 #include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 #include "trismooth/mesh_io/document/cells/strip_triangles.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/input/cell_copies.h"

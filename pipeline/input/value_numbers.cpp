@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "trismooth/base/digits.h"
+#include "trismooth/base/text/digits.h"
 
 namespace trismooth {
 

@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/document_run.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/file_in_pieces.h"
-#include "trismooth/pipeline/ranks/rank_constraints.h"
+#include "trismooth/pipeline/ranks/joined/rank_constraints.h"
 #include "trismooth/pipeline/ranks/run_on_first.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"
 #include "trismooth/pipeline/ranks/whole_mesh.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/ranks/piece_files.h"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/errors.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mpi/communicator.h"

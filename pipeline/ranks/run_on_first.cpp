@@ -15,7 +15,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/pipeline/ranks/agreement.h"
-#include "trismooth/pipeline/ranks/vertex_owners.h"
+#include "trismooth/pipeline/ranks/partition/vertex_owners.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/ranges/number_range.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/ranks/mesh_share.h"

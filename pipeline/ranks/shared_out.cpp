@@ -14,15 +14,15 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/release.h"
+#include "trismooth/base/machine/release.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/new_parallel_file.h"
 #include "trismooth/pipeline/ranks/agreement.h"
-#include "trismooth/pipeline/ranks/bisection.h"
 #include "trismooth/pipeline/ranks/document_layout.h"
+#include "trismooth/pipeline/ranks/partition/bisection.h"
 #include "trismooth/pipeline/ranks/place_index.h"
 #include "trismooth/pipeline/ranks/row_exchange.h"
 #include "trismooth/pipeline/ranks/shared_texts.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/partition.h"
 #include "trismooth/pipeline/ranks/mesh_share.h"

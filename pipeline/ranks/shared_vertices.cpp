@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/digits.h"
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/base/text/digits.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mpi/directory.h"
 #include "trismooth/pipeline/ranks/agreement.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/ranks/piece_files.h"

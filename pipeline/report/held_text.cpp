@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/list_text.h"
+#include "trismooth/base/text/list_text.h"
 
 namespace trismooth {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/list_text.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/report/held_html.h"

@@ -1,6 +1,6 @@
 #include "trismooth/pipeline/report/html_text.h"
 
-#include "trismooth/base/markup_entity.h"
+#include "trismooth/base/text/markup_entity.h"
 #include "trismooth/pipeline/report/printable_text.h"
 
 namespace trismooth {

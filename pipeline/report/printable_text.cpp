@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/utf8.h"
+#include "trismooth/base/text/utf8.h"
 
 namespace trismooth {
 

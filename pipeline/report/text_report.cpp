@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/labelled_line.h"

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/base/counted.h"
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/fields/field_choice.h"
 #include "trismooth/pipeline/fields/field_transfer.h"

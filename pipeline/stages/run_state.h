@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"

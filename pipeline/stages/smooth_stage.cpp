@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/input/near_corners.h"

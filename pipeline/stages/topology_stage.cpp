@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/counted.h"
-#include "trismooth/base/list_text.h"
+#include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
-#include "trismooth/pipeline/geographic/map_mesh.h"
 #include "trismooth/pipeline/halfedge_stage.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/line_groups.h"
+#include "trismooth/pipeline/input/map_mesh.h"
 #include "trismooth/pipeline/input/near_corners.h"
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/slide_lines.h"

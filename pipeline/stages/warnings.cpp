@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/quality/coarse_boundary.h"
 #include "trismooth/quality/precision_loss.h"

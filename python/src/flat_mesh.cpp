@@ -18,9 +18,9 @@
 
 #include <nanobind/stl/string.h>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/repeated_triangles.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/point_sets.h"

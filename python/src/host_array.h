@@ -10,9 +10,9 @@
 
 #include "trismooth/base/array_layout.h"
 #include "trismooth/base/index_view.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point_view.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth::python {
 

@@ -12,8 +12,8 @@
 
 #include <nanobind/stl/string.h>
 
-#include "trismooth/base/suggestion.h"
-#include "trismooth/base/worker_threads.h"
+#include "trismooth/base/machine/worker_threads.h"
+#include "trismooth/base/text/suggestion.h"
 #include "trismooth/python/backends.h"
 #include "trismooth/python/errors.h"
 

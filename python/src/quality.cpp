@@ -13,10 +13,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/repeated_triangles.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 #include "trismooth/python/new_array.h"

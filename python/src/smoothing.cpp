@@ -11,8 +11,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/python/constraint_arrays.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"

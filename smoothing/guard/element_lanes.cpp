@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "trismooth/base/compiled_for.h"
+#include "trismooth/base/machine/compiled_for.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 

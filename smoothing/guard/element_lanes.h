@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trismooth/base/instruction_set.h"
+#include "trismooth/base/machine/instruction_set.h"
 
 namespace trismooth {
 

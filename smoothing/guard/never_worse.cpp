@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/guard/element_lanes.h"
 #include "trismooth/smoothing/guard/guard_tree.h"
 #include "trismooth/smoothing/halo/halo.h"

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/vertex_order.h"
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/list_text.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/stopwatch.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/stopwatch.h"
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/in_parts/mesh_cut.h"
 #include "trismooth/smoothing/in_parts/thread_team.h"

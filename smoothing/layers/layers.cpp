@@ -4,12 +4,12 @@
 #include <atomic>
 #include <cstddef>
 
-#include "trismooth/base/blocks.h"
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/edge_matching.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/blocks.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/parity_forest.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/corner_points.h"
 
 namespace trismooth {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/layers/layers.h"
 

@@ -5,11 +5,11 @@
 #include <atomic>
 #include <bit>
 
-#include "trismooth/base/blocks.h"
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/blocks.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

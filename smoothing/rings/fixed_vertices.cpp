@@ -3,10 +3,10 @@
 #include <atomic>
 #include <cstddef>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/hold.h"
-#include "trismooth/base/relaxed_atomics.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/relaxed_atomics.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/rings/listed_rings.h"
 
 namespace trismooth {

@@ -5,15 +5,15 @@
 #include <atomic>
 #include <numeric>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/counting_sort.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/relaxed_atomics.h"
+#include "trismooth/base/machine/release.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/parity_forest.h"
 #include "trismooth/base/prefix_sums.h"
-#include "trismooth/base/relaxed_atomics.h"
-#include "trismooth/base/release.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/vertex_rim.h"
 
 namespace trismooth {

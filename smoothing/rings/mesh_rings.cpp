@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/analysed_mesh.h"
 
 namespace trismooth {

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <utility>
 
-#include "trismooth/base/prefetch.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/prefetch.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/rings/listed_rings.h"
 
 namespace trismooth {

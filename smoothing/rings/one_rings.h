@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/triangle_topology.h"
 

@@ -5,11 +5,11 @@
 #include <numeric>
 #include <utility>
 
-#include "trismooth/base/bulk_memory.h"
 #include "trismooth/base/counting_sort.h"
-#include "trismooth/base/prefetch.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/prefetch.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/parts/mesh_part.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/vertex_order.h"

@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <utility>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/number_lists.h"
 #include "trismooth/base/number_places.h"
 #include "trismooth/base/prefix_sums.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

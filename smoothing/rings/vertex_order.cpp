@@ -6,8 +6,8 @@
 #include "trismooth/base/box.h"
 #include "trismooth/base/counting_sort.h"
 #include "trismooth/base/hilbert_curve.h"
-#include "trismooth/base/joined_blocks.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/joined_blocks.h"
+#include "trismooth/base/machine/workers.h"
 
 namespace trismooth {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 
 namespace trismooth {

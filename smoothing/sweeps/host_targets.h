@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/halo/halo.h"
 #include "trismooth/smoothing/methods/mean_ratio_targets.h"
 #include "trismooth/smoothing/options.h"

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "trismooth/base/compiled_for.h"
+#include "trismooth/base/machine/compiled_for.h"
 #include "trismooth/smoothing/methods/laplacian.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/methods/weighted_laplacian.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "trismooth/base/instruction_set.h"
+#include "trismooth/base/machine/instruction_set.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/smoothing/methods/mean_ratio.h"
 #include "trismooth/smoothing/rings/one_rings.h"

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
-#include "trismooth/base/stopwatch.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/stopwatch.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/halo/halo.h"
 #include "trismooth/smoothing/methods/methods.h"
 #include "trismooth/smoothing/options.h"

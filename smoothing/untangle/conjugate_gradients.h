@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/ordered_sum.h"
+#include "trismooth/base/machine/ordered_sum.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/workers.h"
 
 namespace trismooth {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trismooth/base/ordered_sum.h"
+#include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/smoothing/untangle/conjugate_gradients.h"
 
 namespace trismooth {

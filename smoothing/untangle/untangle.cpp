@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/guard_rule.h"

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/untangle/untangle.h"
 

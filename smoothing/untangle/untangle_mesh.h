@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/guard/never_worse.h"

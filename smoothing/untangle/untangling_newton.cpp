@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "trismooth/base/ordered_sum.h"
+#include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/smoothing/untangle/conjugate_gradients.h"
 #include "trismooth/smoothing/untangle/regularised_energy.h"
 

@@ -1,4 +1,4 @@
-#include "trismooth/base/bulk_memory.h"
+#include "trismooth/base/machine/bulk_memory.h"
 
 #include <algorithm>
 #include <cstddef>

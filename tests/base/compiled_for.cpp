@@ -1,4 +1,4 @@
-#include "trismooth/base/compiled_for.h"
+#include "trismooth/base/machine/compiled_for.h"
 
 #include <algorithm>
 #include <array>

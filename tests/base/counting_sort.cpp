@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/base/workers.h"
 
 #include "catch.h"
 

@@ -1,4 +1,4 @@
-#include "trismooth/base/digits.h"
+#include "trismooth/base/text/digits.h"
 
 #include <limits>
 

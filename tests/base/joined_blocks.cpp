@@ -1,11 +1,11 @@
-#include "trismooth/base/joined_blocks.h"
+#include "trismooth/base/machine/joined_blocks.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <vector>
 
-#include "trismooth/base/ordered_sum.h"
+#include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/base/splitmix64.h"
 
 #include "catch.h"

@@ -1,4 +1,4 @@
-#include "trismooth/base/overwriting.h"
+#include "trismooth/base/machine/overwriting.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 

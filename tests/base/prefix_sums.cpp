@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/base/workers.h"
 
 #include "catch.h"
 

@@ -1,4 +1,4 @@
-#include "trismooth/base/stopwatch.h"
+#include "trismooth/base/machine/stopwatch.h"
 
 #include <thread>
 

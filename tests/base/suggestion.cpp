@@ -1,4 +1,4 @@
-#include "trismooth/base/suggestion.h"
+#include "trismooth/base/text/suggestion.h"
 
 #include <string>
 #include <vector>

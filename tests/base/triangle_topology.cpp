@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/workers.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

@@ -1,4 +1,4 @@
-#include "trismooth/base/utf8.h"
+#include "trismooth/base/text/utf8.h"
 
 #include <string>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "trismooth/base/worker_threads.h"
+#include "trismooth/base/machine/worker_threads.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,7 +13,7 @@
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 

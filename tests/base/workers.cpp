@@ -1,4 +1,4 @@
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include <algorithm>
 #include <atomic>

@@ -18,7 +18,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"

@@ -22,7 +22,7 @@
 #include <cuda_runtime.h>
 
 #include "trismooth/base/local_frame.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/packing/engine_rings.h"

@@ -14,8 +14,8 @@
 
 #include <cuda_runtime_api.h>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/rounding.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"

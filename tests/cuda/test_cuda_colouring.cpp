@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/cuda/packing/colouring.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/context.h"

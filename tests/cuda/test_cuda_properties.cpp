@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/rounding.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"

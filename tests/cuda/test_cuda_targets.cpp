@@ -12,7 +12,7 @@
 #include <cuda_runtime.h>
 
 #include "trismooth/base/local_frame.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/cuda/packing/engine_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/runtime/context.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/cuda/runtime/context.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/cuda/topology/device_topology.h"

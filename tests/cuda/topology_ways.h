@@ -5,7 +5,7 @@
 #include <string>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/neighbour_search.h"
 #include "trismooth/smoothing/constraints.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 #include "catch.h"

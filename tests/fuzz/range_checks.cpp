@@ -7,7 +7,7 @@
 #include <fstream>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/ranges/msh_range.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/smooth.h"
 

@@ -12,7 +12,7 @@
 #include <OpenMesh/Tools/Utils/MeshCheckerT.hh>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 

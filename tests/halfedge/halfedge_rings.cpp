@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 #include "support/planar_samples.h"

@@ -1,4 +1,4 @@
-#include "trismooth/mesh_io/halfedge/plane.h"
+#include "trismooth/space/plane.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 

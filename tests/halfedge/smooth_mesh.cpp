@@ -14,7 +14,7 @@
 #include <Eigen/Geometry>
 
 #include "trismooth/base/errors.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/halfedge/triangle_mesh.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/smooth.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"

@@ -7,7 +7,7 @@
 
 #include <sys/stat.h>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/triangle/triangle_reader.h"

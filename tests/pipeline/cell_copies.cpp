@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/input/planar_mesh.h"

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/mesh_io/halfedge/triangle_mesh.h"
 #include "trismooth/smoothing/backend_choice.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 #include "support/dice.h"

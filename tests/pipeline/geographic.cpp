@@ -12,8 +12,8 @@
 
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/pipeline/geographic/mercator.h"
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/space/mercator.h"
 
 #include "catch.h"
 #include "support/scratch_folder.h"

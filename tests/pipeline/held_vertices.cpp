@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "trismooth/base/hold.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 

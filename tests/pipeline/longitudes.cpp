@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/geographic/longitudes.h"
+#include "trismooth/space/longitudes.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "trismooth/pipeline/geographic/mercator.h"
+#include "trismooth/space/mercator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/pipeline/fields/triangle_tree.h"
 
 #include "catch.h"

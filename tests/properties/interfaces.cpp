@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trismooth/base/local_frame.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/quality/orientation.h"

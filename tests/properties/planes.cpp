@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/smooth.h"

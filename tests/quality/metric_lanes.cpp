@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trismooth/base/instruction_set.h"
+#include "trismooth/base/machine/instruction_set.h"
 
 #include "catch.h"
 #include "support/limited_instructions.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 
 #include "catch.h"

@@ -1,6 +1,6 @@
 // How the program shares a mesh out: evenly, alike on all ranks, and with short borders.
 
-#include "trismooth/pipeline/ranks/vertex_owners.h"
+#include "trismooth/pipeline/ranks/partition/vertex_owners.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/generate/delaunay.h"
-#include "trismooth/pipeline/ranks/metis_parts.h"
+#include "trismooth/pipeline/ranks/partition/metis_parts.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

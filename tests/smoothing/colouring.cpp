@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 #include "support/hostile_meshes.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "trismooth/base/local_frame.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/smooth.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 

@@ -11,7 +11,7 @@
 
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/rounding.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/smoothing/smooth.h"
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/rings/fixed_triangles.h"
 

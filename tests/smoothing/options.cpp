@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "trismooth/base/worker_threads.h"
+#include "trismooth/base/machine/worker_threads.h"
 
 #include "catch.h"
 

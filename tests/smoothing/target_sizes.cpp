@@ -14,7 +14,7 @@
 
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_frame.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/rings/packed_rings.h"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
 #include "support/naive_smoothing.h"

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/overwriting.h"
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/overwriting.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/cpu_backend.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "trismooth/base/instruction_set.h"
+#include "trismooth/base/machine/instruction_set.h"
 
 /// Has the process use no better instructions, for as long as it lives.
 class LimitedInstructions {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/listed_rings.h"
 #include "trismooth/smoothing/rings/vertex_rim.h"
 

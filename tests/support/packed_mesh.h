@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "trismooth/base/local_frame.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/sweeps/host_targets.h"

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
-#include "trismooth/base/workers.h"
 #include "trismooth/pipeline/generate/delaunay.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 

@@ -1,6 +1,6 @@
 #include "trismooth/mesh_io/document/cells/cell_size.h"
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 
 namespace trismooth {
 

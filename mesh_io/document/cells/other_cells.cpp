@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "trismooth/base/counted.h"
+#include "trismooth/base/text/counted.h"
 
 namespace trismooth {
 

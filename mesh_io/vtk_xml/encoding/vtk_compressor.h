@@ -7,7 +7,7 @@
 #include <vtkDataCompressor.h>
 #include <vtkSmartPointer.h>
 
-#include "trismooth/base/workers.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 
 namespace trismooth {
