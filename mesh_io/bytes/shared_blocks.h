@@ -39,6 +39,27 @@ bool all_file_blocks(const FileWorkers& workers, std::size_t size, std::size_t b
   return all;
 }
 
+/// The first i below `size` that is_wrong(i), or `size`, by all workers; an element takes `bytes_each`.
+template <class IsWrong>
+std::size_t first_wrong(const FileWorkers& workers, std::size_t size, std::size_t bytes_each, const IsWrong& is_wrong) {
+  std::atomic<std::size_t> first = size;
+  for_file_blocks(workers, size, bytes_each, [&](std::size_t begin, std::size_t end) {
+    // Nearly always none is: without a branch for each the compiler can look at several at once.
+    bool any = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      any |= is_wrong(i);
+    }
+    for (std::size_t i = begin; any && i < end; ++i) {
+      if (is_wrong(i)) {
+        for (std::size_t other = first; i < other && !first.compare_exchange_weak(other, i);) {
+        }
+        break;
+      }
+    }
+  });
+  return first;
+}
+
 /// Appends the bytes to the block.
 inline void append_shared(MemoryBlock& block, const void* bytes, std::size_t count, const FileWorkers& workers) {
   block.reserve_more(count);

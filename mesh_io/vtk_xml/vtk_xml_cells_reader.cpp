@@ -36,51 +36,26 @@ std::span<Index> values_from(MemoryBlock& block, std::size_t first) {
   return std::span(reinterpret_cast<Index*>(block.data()), block.size() / sizeof(Index)).subspan(first);
 }
 
+/// Adds `shift` to all of them.
 template <class Index>
-bool rise_from_zero(std::span<const Index> offsets, const FileWorkers& workers) {
-  return all_file_blocks(workers, offsets.size(), sizeof(Index), [&](std::size_t begin, std::size_t end) {
-    Index last = begin == 0 ? Index{0} : offsets[begin - 1];
-    bool rise = true;
-    for (const Index offset : offsets.subspan(begin, end - begin)) {
-      rise = rise && last <= offset;
-      last = offset;
-    }
-    return rise;
-  });
-}
-
-template <class Index>
-bool are_below(std::span<const Index> indices, std::uint64_t limit, const FileWorkers& workers) {
-  using Unsigned = std::make_unsigned_t<Index>;
-  return all_file_blocks(workers, indices.size(), sizeof(Index), [&](std::size_t begin, std::size_t end) {
-    Unsigned highest = 0;  // a negative one is higher than any limit
-    for (const Index index : indices.subspan(begin, end - begin)) {
-      highest = std::max(highest, static_cast<Unsigned>(index));
-    }
-    return begin == end || highest < limit;
-  });
-}
-
-/// True where every cell is of a type that is supported and has as many vertices as that asks for.
-template <class Index>
-bool have_their_sizes(const Index* offsets, std::span<const std::uint8_t> types, const FileWorkers& workers) {
-  return all_file_blocks(workers, types.size(), sizeof(Index), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t cell = begin; cell < end; ++cell) {
-      const auto vertices = static_cast<std::size_t>(offsets[cell + 1] - offsets[cell]);
-      if (is_unsupported(types[cell]) || !cell_size_of(types[cell]).allows(vertices)) {
-        return false;
+void shift_all(std::span<Index> values, std::uint64_t shift, const FileWorkers& workers) {
+  if (shift > 0) {
+    for_file_blocks(workers, values.size(), sizeof(Index), [&](std::size_t begin, std::size_t end) {
+      for (Index& value : values.subspan(begin, end - begin)) {
+        value = static_cast<Index>(value + static_cast<Index>(shift));
       }
-    }
-    return true;
-  });
+    });
+  }
 }
 
-bool have_their_sizes(vtkCellArray& cells, std::span<const std::uint8_t> types, const FileWorkers& workers) {
-  if (types.empty() || cells.GetNumberOfCells() != static_cast<vtkIdType>(types.size())) {
-    return types.empty();
-  }
-  return cells.IsStorage64Bit() ? have_their_sizes(cells.GetOffsetsArray64()->GetPointer(0), types, workers)
-                                : have_their_sizes(cells.GetOffsetsArray32()->GetPointer(0), types, workers);
+/// The first cell of a type that is not supported or of another number of vertices than that asks for, or how many
+/// there are.
+template <class Index>
+std::size_t first_of_wrong_size(const Index* offsets, std::span<const std::uint8_t> types, const FileWorkers& workers) {
+  return first_wrong(workers, types.size(), sizeof(Index), [offsets, types](std::size_t cell) {
+    const auto vertices = static_cast<std::size_t>(offsets[cell + 1] - offsets[cell]);
+    return is_unsupported(types[cell]) || !cell_size_of(types[cell]).allows(vertices);
+  });
 }
 
 }  // namespace
@@ -141,7 +116,7 @@ void VtkXmlCellsReader::append_integers(const XmlElement& array, std::uint64_t c
                               ", which is out of range");
         }
         const auto converted = static_cast<Index>(value);  // NOLINT(bugprone-signed-char-misuse): a number
-        std::memcpy(integers.extend(sizeof(Index)), &converted, sizeof(Index));
+        integers.append(&converted, sizeof(Index));
       }
     }
   });
@@ -161,41 +136,36 @@ vtkSmartPointer<vtkCellArray> VtkXmlCellsReader::join_cells(const std::string& s
       const std::size_t first_index = connectivity.size() / sizeof(Index);
       // Offsets and types behind those of the declared cells would be more cells: a part of the mesh.
       append_integers<Index>(*arrays.offsets, counts[i], offsets, VtkXmlDecoder::Surplus::refused);
-      Index last = 0;
-      std::size_t cell = 0;
-      std::span<Index> to_check = values_from<Index>(offsets, first_offset);
-      if (first_index == 0 && rise_from_zero<Index>(to_check, workers_)) {
-        last = to_check.back();
-        to_check = {};
+      const std::span<Index> ends = values_from<Index>(offsets, first_offset);
+      const auto begin_of = [ends](std::size_t cell) { return cell == 0 ? Index{0} : ends[cell - 1]; };
+      const std::size_t falling = first_wrong(workers_, ends.size(), sizeof(Index),
+                                              [&](std::size_t cell) { return ends[cell] < begin_of(cell); });
+      if (falling < ends.size()) {
+        throw ReadError(path_, arrays.offsets->line,
+                        "the offsets of <" + section + "> fall from " + std::to_string(begin_of(falling)) + " to " +
+                            std::to_string(ends[falling]) + " at cell " + std::to_string(falling));
       }
-      for (Index& offset : to_check) {
-        if (offset < last) {
-          throw ReadError(path_, arrays.offsets->line,
-                          "the offsets of <" + section + "> fall from " + std::to_string(last) + " to " +
-                              std::to_string(offset) + " at cell " + std::to_string(cell));
-        }
-        last = offset;
-        if (!std::in_range<Index>(first_index + static_cast<std::uint64_t>(offset))) {
-          throw ReadError(path_, arrays.offsets->line,
-                          "the offset " + std::to_string(offset) + " in <" + section + "> is too large");
-        }
-        offset = static_cast<Index>(offset + static_cast<Index>(first_index));
-        ++cell;
+      const std::uint64_t most = std::numeric_limits<Index>::max() - first_index;
+      const auto large = std::ranges::find_if(ends, [most](Index end) { return std::cmp_greater(end, most); });
+      if (large != ends.end()) {
+        throw ReadError(path_, arrays.offsets->line,
+                        "the offset " + std::to_string(*large) + " in <" + section + "> is too large");
       }
-      append_integers<Index>(*arrays.connectivity, static_cast<std::uint64_t>(last), connectivity,
+      append_integers<Index>(*arrays.connectivity, static_cast<std::uint64_t>(ends.back()), connectivity,
                              VtkXmlDecoder::Surplus::noted);
-      to_check = values_from<Index>(connectivity, first_index);
-      if (first_point == 0 && are_below<Index>(to_check, pieces_[i].points, workers_)) {
-        to_check = {};
+      shift_all(ends, first_index, workers_);
+      const std::span<Index> vertices = values_from<Index>(connectivity, first_index);
+      // A negative one is higher than any limit.
+      const std::size_t wrong = first_wrong(
+          workers_, vertices.size(), sizeof(Index), [vertices, limit = pieces_[i].points](std::size_t corner) {
+            return static_cast<std::make_unsigned_t<Index>>(vertices[corner]) >= limit;
+          });
+      if (wrong < vertices.size()) {
+        throw ReadError(path_, arrays.connectivity->line,
+                        "a cell of <" + section + "> has the point index " + std::to_string(vertices[wrong]) +
+                            "; there are " + std::to_string(pieces_[i].points) + " points");
       }
-      for (Index& vertex : to_check) {
-        if (std::cmp_less(vertex, 0) || std::cmp_greater_equal(vertex, pieces_[i].points)) {
-          throw ReadError(path_, arrays.connectivity->line,
-                          "a cell of <" + section + "> has the point index " + std::to_string(vertex) + "; there are " +
-                              std::to_string(pieces_[i].points) + " points");
-        }
-        vertex = static_cast<Index>(vertex + static_cast<Index>(first_point));
-      }
+      shift_all(vertices, first_point, workers_);
     }
     first_point += pieces_[i].points;
   }
@@ -273,16 +243,16 @@ vtkSmartPointer<vtkUnsignedCharArray> VtkXmlCellsReader::read_types(vtkCellArray
     losses_.emplace_back("the cell types are written as UInt8");
   }
   const std::span<const std::uint8_t> values = values_from<std::uint8_t>(types, 0);
-  const bool all_fit = have_their_sizes(cells, values, workers_);
-  for (std::size_t cell = 0; cell < values.size() && !all_fit; ++cell) {
+  const std::size_t cell = cells.IsStorage64Bit()
+                               ? first_of_wrong_size(cells.GetOffsetsArray64()->GetPointer(0), values, workers_)
+                               : first_of_wrong_size(cells.GetOffsetsArray32()->GetPointer(0), values, workers_);
+  if (cell < values.size() && is_unsupported(values[cell])) {
+    throw ReadError(path_, "cell " + std::to_string(cell) + " has type " + std::to_string(values[cell]) +
+                               ", which is not supported");
+  }
+  if (cell < values.size()) {
     const auto vertices = static_cast<std::size_t>(cells.GetCellSize(static_cast<vtkIdType>(cell)));
-    if (is_unsupported(values[cell])) {
-      throw ReadError(path_, "cell " + std::to_string(cell) + " has type " + std::to_string(values[cell]) +
-                                 ", which is not supported");
-    }
-    if (!cell_size_of(values[cell]).allows(vertices)) {
-      throw ReadError(path_, "cell " + std::to_string(cell) + " " + describe_wrong_size(values[cell], vertices));
-    }
+    throw ReadError(path_, "cell " + std::to_string(cell) + " " + describe_wrong_size(values[cell], vertices));
   }
   return vtkUnsignedCharArray::SafeDownCast(make_vtk_array(ScalarType::uint8, 1, std::move(types)));
 }

@@ -123,21 +123,21 @@ void VtkXmlDecoder::check_empty_arrays() {
   }
 }
 
-/// Exactly `count` numbers; false, and nothing done, where there is anything else or more.
+/// Appends the first `count` numbers of the text, and passes them; false, and nothing done, where one is not plain.
 template <class T>
-bool VtkXmlDecoder::read_plain_numbers(const XmlElement& array, std::uint64_t count, MemoryBlock& numbers) {
+bool VtkXmlDecoder::read_plain_numbers(std::string_view& text, std::uint64_t count, MemoryBlock& numbers) {
   const std::size_t size_before = numbers.size();
   auto* const values = reinterpret_cast<T*>(numbers.extend(count * sizeof(T)));
-  PlainRows rows(places_.text_of(array), workers_);
-  const auto end = rows.read(0, count, 1, [values](PlainNumbers& text, std::size_t first, std::size_t last) {
-    return std::all_of(values + first, values + last, [&text](T& value) { return text.next(value); });
+  PlainRows rows(text, workers_);
+  const auto end = rows.read(0, count, 1, [values](PlainNumbers& plain, std::size_t first, std::size_t last) {
+    return std::all_of(values + first, values + last, [&plain](T& value) { return plain.next(value); });
   });
-  std::string_view rest = places_.text_of(array).substr(end ? end->offset : 0);
-  if (!end || !take_xml_token(rest).empty()) {
+  if (end) {
+    text.remove_prefix(end->offset);
+  } else {
     numbers.truncate(size_before);
-    return false;
   }
-  return true;
+  return end.has_value();
 }
 
 template <class T>
@@ -149,13 +149,11 @@ void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std
     places_.fail(array, "should hold " + std::to_string(*count) + " numbers, but has room for " + std::to_string(most) +
                             " at most");
   }
+  std::uint64_t read = 0;
   if (count) {
     numbers.reserve_more(*count * sizeof(T));
-    if (read_plain_numbers<T>(array, *count, numbers)) {
-      return;
-    }
+    read = read_plain_numbers<T>(text, *count, numbers) ? *count : 0;
   }
-  std::uint64_t read = 0;
   for (std::string_view token = take_xml_token(text); !token.empty(); token = take_xml_token(text)) {
     const std::optional<T> value = parse_xml_number<T>(token);
     if (!value) {
@@ -168,7 +166,7 @@ void VtkXmlDecoder::read_text_numbers(const XmlElement& array, std::optional<std
       ++read;
       continue;
     }
-    std::memcpy(numbers.extend(sizeof(T)), &*value, sizeof(T));
+    numbers.append(&*value, sizeof(T));
     ++read;
   }
   if (count && read < *count) {

@@ -69,7 +69,7 @@ class VtkXmlDecoder {
   void take_surplus(const XmlElement& array, const char* place, Surplus surplus, std::string_view what);
 
   template <class T>
-  bool read_plain_numbers(const XmlElement& array, std::uint64_t count, MemoryBlock& numbers);
+  bool read_plain_numbers(std::string_view& text, std::uint64_t count, MemoryBlock& numbers);
   template <class T>
   void read_text_numbers(const XmlElement& array, std::optional<std::uint64_t> count, MemoryBlock& numbers,
                          Surplus surplus);
