@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +7,14 @@
 #include <span>
 #include <string_view>
 
+#include "trismooth/mesh_io/bytes/byte_order.h"
+#include "trismooth/mesh_io/text/plain_source.h"
+
 namespace trismooth {
 
 /// Reads numbers of either byte order, one behind the other, with the interface of PlainNumbers. Inline, since meshes
 /// hold millions of numbers. The bytes must outlive the reader.
-class BinaryNumbers {
+class BinaryNumbers : public PlainSource {
  public:
   /// Reads from `offset` on.
   BinaryNumbers(std::string_view bytes, std::size_t offset, bool swapped)
@@ -22,18 +22,16 @@ class BinaryNumbers {
 
   /// The next number; false where the bytes end before.
   template <class T>
-  bool next(T& value) {
+  bool next(T& value, std::string_view /*what*/ = {}) {
     number_offset_ = offset_;
     if (bytes_.size() - offset_ < sizeof(T)) {
       return false;
     }
-    std::array<char, sizeof(T)> stored;
-    std::memcpy(stored.data(), bytes_.data() + offset_, sizeof(T));
-    if (swapped_) {
-      std::ranges::reverse(stored);
-    }
+    std::memcpy(&value, bytes_.data() + offset_, sizeof(T));
     offset_ += sizeof(T);
-    value = std::bit_cast<T>(stored);
+    if (swapped_) {
+      value = with_bytes_reversed(value);
+    }
     return true;
   }
 
@@ -50,9 +48,7 @@ class BinaryNumbers {
     offset_ += values.size_bytes();
     if (swapped_) {
       for (T& value : values) {
-        auto stored = std::bit_cast<std::array<char, sizeof(T)>>(value);
-        std::ranges::reverse(stored);
-        value = std::bit_cast<T>(stored);
+        value = with_bytes_reversed(value);
       }
     }
     return true;
@@ -63,10 +59,6 @@ class BinaryNumbers {
   template <class T>
   bool next_whole(T& value, std::string_view /*what*/, std::int64_t lowest, std::int64_t highest) {
     return next(value) && lowest <= value && value <= highest;
-  }
-  template <class Message>
-  static bool fail(const Message& /*message*/) {
-    return false;
   }
 
   /// A row may end anywhere.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstring>
 #include <filesystem>
 #include <string_view>
 
@@ -19,9 +18,7 @@ class FileBytes {
   template <std::convertible_to<std::string_view> Text>
   FileBytes(const Text& text) {  // NOLINT(google-explicit-constructor): the same bytes
     const std::string_view bytes = text;
-    if (!bytes.empty()) {
-      std::memcpy(block_.extend(bytes.size()), bytes.data(), bytes.size());
-    }
+    block_.append(bytes.data(), bytes.size());
   }
 
   std::string_view view() const { return {reinterpret_cast<const char*>(block_.data()), block_.size()}; }

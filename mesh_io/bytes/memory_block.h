@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <new>
 
@@ -39,6 +40,14 @@ class MemoryBlock {
     std::byte* const begin = data_.get() + size_;
     size_ += count;
     return begin;
+  }
+
+  /// Appends so many bytes, which are not of this block. Throws std::bad_alloc.
+  void append(const void* bytes, std::size_t count) {
+    std::byte* const target = extend(count);
+    if (count > 0) {
+      std::memcpy(target, bytes, count);
+    }
   }
 
   /// Makes room for `count` bytes more: exactly, if these are the first ones; else capacity doubles at least, so that

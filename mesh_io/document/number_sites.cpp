@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -10,7 +9,9 @@
 #include <optional>
 #include <type_traits>
 
+#include "trismooth/mesh_io/bytes/binary_numbers.h"
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/text/number_text.h"
@@ -71,20 +72,13 @@ class SitePatcher {
       const bool stays = stored ? !differs(*stored, value) : is_no_number(value);
       return {token.size(), stays ? 0 : write_text(value, target)};
     }
-    std::array<char, sizeof(T)> stored{};
-    std::memcpy(stored.data(), bytes_.data() + offset, sizeof(T));
-    const bool swapped =
-        (sites_.encoding == NumberEncoding::big_endian) == (std::endian::native == std::endian::little);
-    if (swapped) {
-      std::ranges::reverse(stored);
-    }
-    if (!differs(std::bit_cast<T>(stored), value)) {
+    const bool swapped = is_swapped(sites_.encoding);
+    T stored{};
+    if (BinaryNumbers(bytes_, offset, swapped).next(stored) && !differs(stored, value)) {
       return {sizeof(T), 0};
     }
-    std::memcpy(target, &value, sizeof(T));
-    if (swapped) {
-      std::reverse(target, target + sizeof(T));
-    }
+    stored = swapped ? with_bytes_reversed(value) : value;
+    std::memcpy(target, &stored, sizeof(T));
     return {sizeof(T), sizeof(T)};
   }
 

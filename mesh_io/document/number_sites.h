@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,11 @@ namespace trismooth {
 
 /// How a file writes its numbers.
 enum class NumberEncoding : std::uint8_t { text, little_endian, big_endian };
+
+/// Whether numbers of a binary encoding are not in this machine's byte order.
+constexpr bool is_swapped(NumberEncoding encoding) {
+  return (encoding == NumberEncoding::big_endian) == (std::endian::native == std::endian::little);
+}
 
 /// What a number at a site is.
 struct SiteColumn {

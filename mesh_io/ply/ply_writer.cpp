@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/document/free_names.h"
@@ -24,11 +25,8 @@ namespace {
 /// Appends the number as little-endian bytes.
 template <class T>
 void append_bytes(MemoryBlock& bytes, T number) {
-  auto stored = std::bit_cast<std::array<std::byte, sizeof(T)>>(number);
-  if constexpr (std::endian::native == std::endian::big) {
-    std::ranges::reverse(stored);
-  }
-  std::memcpy(bytes.extend(sizeof(T)), stored.data(), sizeof(T));
+  const T stored = in_byte_order<std::endian::little>(number);
+  bytes.append(&stored, sizeof(T));
 }
 
 /// One component of an array, as a scalar property of an element.

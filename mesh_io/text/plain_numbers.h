@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "trismooth/mesh_io/text/decimal_counter.h"
+#include "trismooth/mesh_io/text/plain_source.h"
 
 namespace trismooth {
 
@@ -24,7 +25,7 @@ constexpr bool is_white_space(char c) {
 /// space around them. Whatever else a text holds (a plus sign, a comment, a word, a number out of range) it does not
 /// judge: the answer is false then, and somebody else has to read that text, and to say what is wrong with it. Inline,
 /// since meshes hold millions of numbers. The text must outlive the reader.
-class PlainNumbers {
+class PlainNumbers : public PlainSource {
  public:
   /// Reads from `offset` on.
   PlainNumbers(std::string_view text, std::size_t offset)
@@ -33,7 +34,7 @@ class PlainNumbers {
   /// The next number, across lines; what parse_number() or parse_integer_as() make of it. False where that is not
   /// plain to see; the reader is of no use any more then.
   template <class T>
-  [[gnu::always_inline]] bool next(T& value) {  // a call takes as long as the number
+  [[gnu::always_inline]] bool next(T& value, std::string_view /*what*/ = {}) {  // a call takes as long as the number
     while (at_ != end_ && is_white_space(*at_)) {
       ++at_;
     }
@@ -63,15 +64,6 @@ class PlainNumbers {
   [[gnu::always_inline]] bool next_index(T& value, std::string_view what, std::int64_t lowest, std::int64_t highest,
                                          const Wrong& /*wrong*/) {
     return next_whole(value, what, lowest, highest);
-  }
-
-  template <class Message>
-  static bool fail(const Message& /*message*/) {
-    return false;
-  }
-  template <class Message>
-  static bool fail_at_next(std::string_view /*what*/, const Message& /*message*/) {
-    return false;
   }
 
   /// Passes the next number where it is written as `expected` has it, and nothing otherwise: next() may read it then.

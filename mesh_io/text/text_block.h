@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cstddef>
-#include <cstring>
 #include <string_view>
 
 #include "trismooth/mesh_io/bytes/memory_block.h"
@@ -16,10 +15,7 @@ class TextBlock {
   explicit TextBlock(MemoryBlock& bytes) : bytes_(bytes) {}
 
   TextBlock& text(std::string_view text) {
-    std::byte* const target = bytes_.extend(text.size());
-    if (!text.empty()) {
-      std::memcpy(target, text.data(), text.size());
-    }
+    bytes_.append(text.data(), text.size());
     return *this;
   }
 

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "trismooth/mesh_io/bytes/big_endian.h"
+#include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/errors.h"
@@ -218,7 +218,7 @@ T VtkLegacyInput::next_binary_value(std::string_view what) {
   place_ = scanner_.offset();
   require_values(1, bytes_left() / sizeof(T), what);
   scanner_.seek(place_ + sizeof(T));
-  return load_big_endian<T>(scanner_.text().data() + place_);
+  return load<std::endian::big, T>(scanner_.text().data() + place_);
 }
 
 template <class T>

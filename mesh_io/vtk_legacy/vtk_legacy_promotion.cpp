@@ -4,24 +4,12 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 
-#include "trismooth/mesh_io/bytes/big_endian.h"
+#include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/exact_integers.h"
 
 namespace trismooth {
-
-namespace {
-
-void append_big_endian(std::string& text, double value) {
-  auto bytes = std::bit_cast<std::array<char, sizeof(double)>>(value);
-  if constexpr (std::endian::native == std::endian::little) {
-    std::ranges::reverse(bytes);
-  }
-  text.append(bytes.data(), bytes.size());
-}
-
-}  // namespace
 
 bool holds_coordinates(const VtkLegacyLayout& layout, std::span<const double> points) {
   return visit_scalar_type(layout.coordinates.type, [points](auto zero) {
@@ -53,10 +41,11 @@ VtkLegacyPromotion promote_coordinates(std::string_view bytes, const VtkLegacyLa
   promotion.bytes += bytes.substr(behind_type, first - behind_type);
   for (std::uint64_t& offset : sites.offsets) {
     const double value = visit_scalar_type(layout.coordinates.type, [&](auto zero) {
-      return static_cast<double>(load_big_endian<decltype(zero)>(bytes.data() + offset));
+      return static_cast<double>(load<std::endian::big, decltype(zero)>(bytes.data() + offset));
     });
     offset = promotion.bytes.size();
-    append_big_endian(promotion.bytes, value);
+    const auto stored = std::bit_cast<std::array<char, sizeof(double)>>(in_byte_order<std::endian::big>(value));
+    promotion.bytes.append(stored.data(), stored.size());
   }
   promotion.bytes += bytes.substr(first + sites.offsets.size() * size_of(layout.coordinates.type));
   return promotion;

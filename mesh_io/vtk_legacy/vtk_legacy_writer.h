@@ -1,16 +1,14 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
-#include <cstring>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/mesh_document.h"
@@ -31,11 +29,8 @@ class VtkLegacyNumbers {
       TextBlock(bytes_).number(value).text(separator);
       return;
     }
-    auto stored = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
-    if constexpr (std::endian::native == std::endian::little) {
-      std::ranges::reverse(stored);
-    }
-    std::memcpy(bytes_.extend(sizeof(T)), stored.data(), sizeof(T));
+    const T stored = in_byte_order<std::endian::big>(value);
+    bytes_.append(&stored, sizeof(T));
   }
 
  private:

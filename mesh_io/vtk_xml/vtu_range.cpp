@@ -247,17 +247,17 @@ class RangeReader {
     MemoryBlock header;
     for (const std::uint64_t word : words) {
       if (word_size() == 8) {
-        std::memcpy(header.extend(8), &word, 8);
+        header.append(&word, 8);
       } else {
         const auto narrow = static_cast<std::uint32_t>(word);
-        std::memcpy(header.extend(4), &narrow, 4);
+        header.append(&narrow, 4);
       }
     }
     swap_words(header);
     MemoryBlock all;
     all.reserve_more(1 + header.size() + (bytes.last - bytes.first));
-    *all.extend(1) = std::byte{'_'};
-    std::memcpy(all.extend(header.size()), header.data(), header.size());
+    all.append("_", 1);
+    all.append(header.data(), header.size());
     const std::size_t count = bytes.last - bytes.first;
     if (bytes.last > end_ || file_.read_at(all.extend(count), count, bytes.first) != count) {
       give_up(path(), "it is cut off");
@@ -316,10 +316,8 @@ class RangeReader {
   void put(XmlElement& array, const MemoryBlock& numbers) {
     set_attribute(array, "offset", std::to_string(appended_.size()));
     const std::uint64_t size = numbers.size();
-    std::memcpy(appended_.extend(sizeof(size)), &size, sizeof(size));
-    if (size > 0) {
-      std::memcpy(appended_.extend(size), numbers.data(), size);
-    }
+    appended_.append(&size, sizeof(size));
+    appended_.append(numbers.data(), size);
   }
 
   static bool is_array(const XmlElement& element) { return element.name == "DataArray" || element.name == "Array"; }
@@ -429,10 +427,7 @@ class RangeReader {
 
   void put_integers(XmlElement& array, const std::vector<std::int64_t>& numbers) {
     MemoryBlock bytes;
-    if (!numbers.empty()) {
-      std::memcpy(bytes.extend(numbers.size() * sizeof(std::int64_t)), numbers.data(),
-                  numbers.size() * sizeof(std::int64_t));
-    }
+    bytes.append(numbers.data(), numbers.size() * sizeof(std::int64_t));
     set_attribute(array, "type", "Int64");
     put(array, bytes);
   }
@@ -449,14 +444,10 @@ class RangeReader {
     std::string head = text.take();
     const std::size_t split = head.rfind("</");
     MemoryBlock file;
-    const auto add = [&file](std::string_view bytes) {
-      std::memcpy(file.extend(bytes.size()), bytes.data(), bytes.size());
-    };
+    const auto add = [&file](std::string_view bytes) { file.append(bytes.data(), bytes.size()); };
     file.reserve_more(head.size() + appended_.size() + 32);
     add(std::string_view(head).substr(0, split));
-    if (appended_.size() > 0) {
-      add({reinterpret_cast<const char*>(appended_.data()), appended_.size()});
-    }
+    file.append(appended_.data(), appended_.size());
     add("</AppendedData>");
     add(std::string_view(head).substr(split));
     appended_ = MemoryBlock();

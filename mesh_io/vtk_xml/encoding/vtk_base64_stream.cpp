@@ -1,7 +1,6 @@
 #include "trismooth/mesh_io/vtk_xml/encoding/vtk_base64_stream.h"
 
 #include <algorithm>
-#include <cstring>
 #include <ostream>
 #include <string_view>
 #include <utility>
@@ -44,7 +43,7 @@ int VtkBase64Stream::Write(const void* data, std::size_t length) {
   const auto* bytes = static_cast<const std::byte*>(data);
   while (length > 0) {
     const std::size_t taken = std::min(length, most_gathered_ - gathered_.size());
-    std::memcpy(gathered_.extend(taken), bytes, taken);
+    gathered_.append(bytes, taken);
     bytes += taken;
     length -= taken;
     if (gathered_.size() == most_gathered_) {
