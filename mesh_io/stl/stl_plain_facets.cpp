@@ -1,10 +1,9 @@
 #include "trismooth/mesh_io/stl/stl_plain_facets.h"
 
-#include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
-#include "trismooth/mesh_io/bytes/shared_blocks.h"
+#include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/stl/stl_layout.h"
 #include "trismooth/mesh_io/text/line_parts.h"
 #include "trismooth/mesh_io/text/plain_numbers.h"
@@ -12,12 +11,6 @@
 namespace trismooth {
 
 namespace {
-
-constexpr std::size_t most_facets = std::numeric_limits<std::int32_t>::max() / 3;
-
-constexpr std::size_t offset_of_corner(std::size_t corner) {
-  return stl_layout::header_bytes + corner / 3 * stl_layout::facet_bytes + (1 + corner % 3) * stl_layout::vector_bytes;
-}
 
 /// Words and numbers of the facets of a text.
 class FacetText {
@@ -36,7 +29,7 @@ class FacetText {
   std::size_t token_offset() const { return token_; }
 
   /// Reads the next token, if it is that word.
-  bool next(std::string_view word) {
+  bool expect(std::string_view word) {
     skip_space();
     token_ = at_;
     const bool is_word = text_.substr(at_).starts_with(word);
@@ -44,14 +37,16 @@ class FacetText {
     return is_word && (at_end() || is_white_space(text_[at_]));
   }
 
-  bool skip(std::size_t tokens) {
+  bool expect_statement(std::string_view word) { return expect(word); }
+
+  bool pass(std::size_t tokens, std::string_view /*what*/) {
     PlainNumbers numbers(text_, at_);
     const bool skipped = numbers.skip(tokens);
     at_ = numbers.offset();
     return skipped;
   }
 
-  bool next(double& coordinate) {
+  bool next(double& coordinate, std::string_view /*what*/) {
     PlainNumbers numbers(text_, at_);
     const bool plain = numbers.next(coordinate) && std::isfinite(coordinate);
     token_ = numbers.token_offset();
@@ -77,7 +72,7 @@ struct FacetPart {
 class PlainTextReader {
  public:
   PlainTextReader(std::string_view text, std::size_t offset, const FileWorkers& workers)
-      : text_(text), offset_(offset), workers_(workers), lines_(text, offset, workers), parts_(lines_.size()) {}
+      : text_(text), offset_(offset), workers_(workers.workers), lines_(text, offset, workers), parts_(lines_.size()) {}
 
   std::optional<PlainTextFacets> read() {
     lines_.all_of([this](std::size_t part) { return find_facets(part); });
@@ -87,13 +82,12 @@ class PlainTextReader {
       facets += part.facets;
     }
     constexpr std::size_t least_facet_bytes = 86;  // 9 words, 12 numbers, and a separator behind each
-    if (facets == 0 || facets > (text_.size() + 1) / least_facet_bytes || facets > most_facets) {
+    if (facets == 0 || facets > (text_.size() + 1) / least_facet_bytes || facets > stl_layout::most_facets) {
       return std::nullopt;
     }
-    PlainTextFacets result{};
-    shared_resize(points_, 9 * facets, result.facets.offsets, 9 * facets, workers_.workers);
-    if (!lines_.all_of([&](std::size_t part) { return read_facets(parts_[part], result.facets.offsets); }) ||
-        !are_all()) {
+    PlainTextFacets result;
+    shared_resize(result.facets.points, 9 * facets, result.facets.offsets, 9 * facets, workers_);
+    if (!lines_.all_of([&](std::size_t part) { return read_facets(parts_[part], result.facets); }) || !are_all()) {
       return std::nullopt;
     }
     for (const FacetPart& part : parts_) {
@@ -102,14 +96,7 @@ class PlainTextReader {
         result.end = part.end;
       }
     }
-    if (!is_end_of_text(result.end)) {
-      return std::nullopt;
-    }
-    const auto point_of = [this](std::size_t corner) {
-      return std::array{points_[3 * corner], points_[3 * corner + 1], points_[3 * corner + 2]};
-    };
-    result.facets.corners = weld_corners<double>(3 * facets, point_of, workers_);
-    return result;
+    return is_end_of_text(result.end) ? std::optional(std::move(result)) : std::nullopt;
   }
 
  private:
@@ -121,7 +108,7 @@ class PlainTextReader {
       FacetText words(text, line);
       words.skip_space();
       line = words.offset();
-      if (words.next("facet")) {
+      if (words.expect("facet")) {
         part.begin = facets == 0 ? line : part.begin;
         ++facets;
       }
@@ -130,20 +117,10 @@ class PlainTextReader {
     return true;
   }
 
-  bool read_facets(FacetPart& part, std::vector<std::uint64_t>& offsets) {
+  bool read_facets(FacetPart& part, StlTextFacets& facets) {
     FacetText words(text_, part.begin);
     for (std::size_t facet = part.first; facet < part.first + part.facets; ++facet) {
-      if (!words.next("facet") || !words.next("normal") || !words.skip(3) || !words.next("outer") ||
-          !words.next("loop")) {
-        return false;
-      }
-      for (std::size_t i = 9 * facet; i < 9 * facet + 9; ++i) {
-        if ((i % 3 == 0 && !words.next("vertex")) || !words.next(points_[i])) {
-          return false;
-        }
-        offsets[i] = words.token_offset();
-      }
-      if (!words.next("endloop") || !words.next("endfacet")) {
+      if (!words.expect("facet") || !read_stl_facet(words, facet, facets)) {
         return false;
       }
     }
@@ -170,7 +147,7 @@ class PlainTextReader {
 
   bool is_end_of_text(std::size_t offset) const {
     FacetText words(text_, offset);
-    if (words.next("endsolid")) {
+    if (words.expect("endsolid")) {
       words = FacetText(text_, find_line_end(text_, words.offset()));
     }
     words.skip_space();
@@ -179,47 +156,12 @@ class PlainTextReader {
 
   std::string_view text_;
   std::size_t offset_;
-  FileWorkers workers_;
+  Workers& workers_;
   LineParts lines_;
   std::vector<FacetPart> parts_;
-  std::vector<double> points_;
 };
 
 }  // namespace
-
-std::optional<PlainBinaryFacets> read_plain_binary_facets(std::string_view bytes, std::size_t count,
-                                                          const FileWorkers& workers) {
-  if (workers.part_bytes == FileWorkers::serial || count > most_facets) {
-    return std::nullopt;
-  }
-  PlainBinaryFacets result;
-  std::vector<std::uint64_t>& offsets = result.facets.offsets;
-  shared_resize(offsets, 9 * count, result.attributes, count, workers.workers);
-  const bool plain = all_file_blocks(workers, count, stl_layout::facet_bytes, [&](std::size_t first, std::size_t last) {
-    for (std::size_t facet = first; facet < last; ++facet) {
-      std::size_t offset = offset_of_corner(3 * facet);
-      for (std::size_t i = 9 * facet; i < 9 * facet + 9; ++i, offset += sizeof(float)) {
-        offsets[i] = offset;
-        if (!std::isfinite(stl_layout::number_at<float>(bytes, offset))) {
-          return false;
-        }
-      }
-      result.attributes[facet] = stl_layout::number_at<std::uint16_t>(bytes, offset);
-    }
-    return true;
-  });
-  if (!plain) {
-    return std::nullopt;
-  }
-  const auto point_of = [bytes](std::size_t corner) {
-    const std::size_t offset = offset_of_corner(corner);
-    return std::array{stl_layout::number_at<float>(bytes, offset),
-                      stl_layout::number_at<float>(bytes, offset + sizeof(float)),
-                      stl_layout::number_at<float>(bytes, offset + 2 * sizeof(float))};
-  };
-  result.facets.corners = weld_corners<float>(3 * count, point_of, workers);
-  return result;
-}
 
 std::optional<PlainTextFacets> read_plain_text_facets(std::string_view text, std::size_t offset,
                                                       const FileWorkers& workers) {

@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/stl/point_welder.h"
+#include "trismooth/mesh_io/stl/shared_welding.h"
 #include "trismooth/mesh_io/stl/stl.h"
 #include "trismooth/mesh_io/stl/stl_layout.h"
 #include "trismooth/mesh_io/stl/stl_plain_facets.h"
@@ -28,97 +27,72 @@ bool is_word(std::string_view token, std::string_view word) {
   return std::ranges::equal(token, word, {}, [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
 }
 
-/// Makes triangles of corners, three after three, and remembers where each corner stands in the file.
-class FacetCollector {
- public:
-  FacetCollector(const std::filesystem::path& path, NumberEncoding encoding, ScalarType type) : path_(path) {
-    sites_.encoding = encoding;
-    document_.point_type = sites_.type = type;
+void require_supported(const std::filesystem::path& path, std::size_t facets) {
+  if (facets > stl_layout::most_facets) {
+    throw ReadError(path, "has more facets than are supported (" + std::to_string(stl_layout::most_facets) + ")");
   }
+}
 
-  void add_corner(const std::array<double, 3>& point, const std::array<std::uint64_t, 3>& offsets) {
-    if (sites_.vertices.size() == std::numeric_limits<std::int32_t>::max()) {
-      throw ReadError(path_, "has more facets than are supported (" +
-                                 std::to_string(std::numeric_limits<std::int32_t>::max() / 3) + ")");
-    }
-    sites_.vertices.push_back(welder_.weld(point));
-    sites_.offsets.insert(sites_.offsets.end(), offsets.begin(), offsets.end());
-    if (sites_.vertices.size() % 3 == 0) {
-      document_.cells.append(cell_type::triangle, std::span(sites_.vertices).last(3));
-    }
-  }
-
-  /// Facets that others have read, in place of those so far: none.
-  void adopt(PlainFacets facets, const FileWorkers& workers) {
-    CellList& cells = document_.cells;
-    sites_.offsets = std::move(facets.offsets);
-    sites_.vertices = std::move(facets.corners.vertices);
-    points_ = std::move(facets.corners.points);
-    const std::size_t count = sites_.vertices.size() / 3;
-    shared_resize(cells.connectivity, 3 * count, cells.offsets, count + 1, workers.workers);
-    shared_resize(cells.types, count, workers.workers);
-    for_file_blocks(workers, count, stl_layout::facet_bytes, [&](std::size_t first, std::size_t last) {
-      for (std::size_t facet = first; facet < last; ++facet) {
-        for (std::size_t corner = 3 * facet; corner < 3 * facet + 3; ++corner) {
-          cells.connectivity[corner] = sites_.vertices[corner];
-        }
-        cells.offsets[facet + 1] = static_cast<std::int64_t>(3 * facet + 3);
-        cells.types[facet] = cell_type::triangle;
+/// The triangles of corners, three after three, and where the numbers of each stand in the file.
+MeshDocument make_document(WeldedCorners corners, NumberSites sites, FileBytes bytes, const FileWorkers& workers) {
+  MeshDocument document;
+  document.point_type = sites.type;
+  document.points = std::move(corners.points);
+  CellList& cells = document.cells;
+  sites.vertices = std::move(corners.vertices);
+  const std::size_t count = sites.vertices.size() / 3;
+  shared_resize(cells.connectivity, 3 * count, cells.offsets, count + 1, workers.workers);
+  shared_resize(cells.types, count, workers.workers);
+  for_file_blocks(workers, count, stl_layout::facet_bytes, [&](std::size_t first, std::size_t last) {
+    for (std::size_t facet = first; facet < last; ++facet) {
+      for (std::size_t corner = 3 * facet; corner < 3 * facet + 3; ++corner) {
+        cells.connectivity[corner] = sites.vertices[corner];
       }
-    });
-  }
-
-  std::size_t facets() const { return document_.cells.size(); }
-
-  MeshDocument finish(FileBytes bytes) {
-    document_.points = points_ ? std::move(*points_) : welder_.take_points();
-    document_.original = make_patched_original(std::move(bytes), std::move(sites_));
-    return std::move(document_);
-  }
-
- private:
-  const std::filesystem::path& path_;
-  MeshDocument document_;
-  NumberSites sites_;
-  PointWelder welder_;
-  std::optional<std::vector<double>> points_;  ///< of facets that others have read
-};
-
-/// Returns the attributes of the facets.
-std::vector<std::uint16_t> read_one_by_one(const std::filesystem::path& path, std::string_view bytes, std::size_t count,
-                                           FacetCollector& collector) {
-  std::vector<std::uint16_t> attributes(count);
-  for (std::size_t facet = 0; facet < count; ++facet) {
-    std::size_t offset = stl_layout::header_bytes + facet * stl_layout::facet_bytes + stl_layout::vector_bytes;
-    for (int corner = 0; corner < 3; ++corner) {
-      std::array<double, 3> point{};
-      std::array<std::uint64_t, 3> offsets{};
-      for (std::size_t axis = 0; axis < 3; ++axis, offset += sizeof(float)) {
-        point[axis] = static_cast<double>(number_at<float>(bytes, offset));
-        offsets[axis] = offset;
-        if (!std::isfinite(point[axis])) {
-          throw ReadError(path, "byte " + std::to_string(offset) + ": facet " + std::to_string(facet) +
-                                    " has a coordinate that is not a finite number");
-        }
-      }
-      collector.add_corner(point, offsets);
+      cells.offsets[facet + 1] = static_cast<std::int64_t>(3 * facet + 3);
+      cells.types[facet] = cell_type::triangle;
     }
-    attributes[facet] = number_at<std::uint16_t>(bytes, offset);
-  }
-  return attributes;
+  });
+  document.original = make_patched_original(std::move(bytes), std::move(sites));
+  return document;
 }
 
 MeshDocument read_binary(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {
-  FacetCollector collector(path, NumberEncoding::little_endian, ScalarType::float32);
-  const auto count = number_at<std::uint32_t>(bytes, stl_layout::title_bytes);
+  const std::size_t count = number_at<std::uint32_t>(bytes, stl_layout::title_bytes);
+  require_supported(path, count);
+  NumberSites sites;
+  sites.encoding = NumberEncoding::little_endian;
+  sites.type = ScalarType::float32;
   std::vector<std::uint16_t> attributes;
-  if (auto plain = read_plain_binary_facets(bytes, count, workers)) {
-    collector.adopt(std::move(plain->facets), workers);
-    attributes = std::move(plain->attributes);
-  } else {
-    attributes = read_one_by_one(path, bytes, count, collector);
+  shared_resize(sites.offsets, 9 * count, attributes, count, workers.workers);
+  std::atomic<bool> all_finite = true;
+  for_file_blocks(workers, count, stl_layout::facet_bytes, [&](std::size_t first, std::size_t last) {
+    bool finite = true;
+    for (std::size_t facet = first; facet < last; ++facet) {
+      std::size_t offset = stl_layout::offset_of_corner(3 * facet);
+      for (std::size_t i = 9 * facet; i < 9 * facet + 9; ++i, offset += sizeof(float)) {
+        sites.offsets[i] = offset;
+        finite = finite && std::isfinite(number_at<float>(bytes, offset));
+      }
+      attributes[facet] = number_at<std::uint16_t>(bytes, offset);
+    }
+    if (!finite) {
+      all_finite = false;
+    }
+  });
+  if (!all_finite) {
+    const auto wrong = std::ranges::find_if(
+        sites.offsets, [&](std::uint64_t offset) { return !std::isfinite(number_at<float>(bytes, offset)); });
+    throw ReadError(path, "byte " + std::to_string(*wrong) + ": facet " +
+                              std::to_string((wrong - sites.offsets.begin()) / 9) +
+                              " has a coordinate that is not a finite number");
   }
-  MeshDocument document = collector.finish(std::move(bytes));
+  const auto point_of = [&bytes](std::size_t corner) {
+    const std::size_t offset = stl_layout::offset_of_corner(corner);
+    return std::array{number_at<float>(bytes, offset), number_at<float>(bytes, offset + sizeof(float)),
+                      number_at<float>(bytes, offset + 2 * sizeof(float))};
+  };
+  WeldedCorners corners = weld_corners<float>(3 * count, point_of, workers);
+  MeshDocument document = make_document(std::move(corners), std::move(sites), std::move(bytes), workers);
   if (std::ranges::any_of(attributes, [](std::uint16_t attribute) { return attribute != 0; })) {
     document.cell_arrays.push_back(make_data_array("attribute", 1, std::move(attributes)));
   }
@@ -135,8 +109,7 @@ class TextReader {
   TextReader(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers)
       : bytes_(std::move(bytes)),
         workers_(workers),
-        scanner_(bytes_, path, TextScanner::Comments::none, begin_of_text(bytes_)),
-        collector_(path, NumberEncoding::text, ScalarType::float64) {}
+        scanner_(bytes_, path, TextScanner::Comments::none, begin_of_text(bytes_)) {}
 
   /// Reads the whole text, once.
   MeshDocument read() {
@@ -150,11 +123,18 @@ class TextReader {
         read_plain_facets();
       }
       read_solid();
-      solid_of_facet.resize(collector_.facets(), solids);
+      solid_of_facet.resize(facets_.size(), solids);
       ++solids;
     } while (begins_another_solid());
     const std::string unknown = unknown_words();
-    MeshDocument document = collector_.finish(std::move(bytes_));
+    const auto point_of = [&points = facets_.points](std::size_t corner) {
+      return std::array{points[3 * corner], points[3 * corner + 1], points[3 * corner + 2]};
+    };
+    WeldedCorners corners = weld_corners<double>(3 * facets_.size(), point_of, workers_);
+    facets_.points = {};
+    NumberSites sites;
+    sites.offsets = std::move(facets_.offsets);
+    MeshDocument document = make_document(std::move(corners), std::move(sites), std::move(bytes_), workers_);
     if (!has_end_) {
       document.notes.emplace_back("does not end with 'endsolid': nothing says whether facets are missing");
     }
@@ -169,11 +149,35 @@ class TextReader {
     return document;
   }
 
+  // The words of a facet, careful ones: see read_stl_facet().
+  bool expect(std::string_view word) {
+    const std::string_view token = scanner_.next_token(word);
+    if (!is_word(token, word)) {
+      scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
+    }
+    return true;
+  }
+  bool expect_statement(std::string_view word) {
+    skip_unknown_lines();
+    return expect(word);
+  }
+  bool pass(int tokens, std::string_view what) {
+    for (; tokens > 0; --tokens) {
+      scanner_.next_token(what);
+    }
+    return true;
+  }
+  bool next(double& coordinate, std::string_view what) {
+    coordinate = scanner_.next_double(what);
+    return true;
+  }
+  std::size_t token_offset() const { return scanner_.token_offset(); }
+
  private:
   /// Reads all facets, where nothing but their 'endsolid' follows.
   void read_plain_facets() {
     if (auto plain = read_plain_text_facets(bytes_, scanner_.offset(), workers_)) {
-      collector_.adopt(std::move(plain->facets), workers_);
+      facets_ = std::move(plain->facets);
       scanner_.resume(plain->last_word, plain->end);
     }
   }
@@ -184,17 +188,21 @@ class TextReader {
     has_end_ = false;
     while (true) {
       skip_unknown_lines();
-      if (collector_.facets() > 0 && scanner_.at_end()) {
+      if (facets_.size() > 0 && scanner_.at_end()) {
         return;
       }
       const std::string_view word = scanner_.next_token("facet or endsolid");
       if (is_word(word, "facet")) {
-        read_facet();
+        const std::size_t facet = facets_.size();
+        require_supported(scanner_.path(), facet + 1);
+        facets_.points.resize(9 * facet + 9);
+        facets_.offsets.resize(9 * facet + 9);
+        read_stl_facet(*this, facet, facets_);
       } else if (is_word(word, "endsolid")) {
         has_end_ = true;
         scanner_.next_line();
         return;
-      } else if (is_word(word, "solid") && collector_.facets() > 0) {
+      } else if (is_word(word, "solid") && facets_.size() > 0) {
         scanner_.seek(scanner_.token_offset());
         return;
       } else {
@@ -208,50 +216,7 @@ class TextReader {
     if (scanner_.at_end()) {
       return false;
     }
-    expect("solid");
-    return true;
-  }
-
-  void read_facet() {
-    expect("normal");
-    for (int axis = 0; axis < 3; ++axis) {
-      // Not checked: degenerate facets have normals of NaN in many spellings, and normals are not used.
-      scanner_.next_token("a normal of three numbers");
-    }
-    expect_statement("outer");
-    expect("loop");
-    for (int corner = 0; corner < 3; ++corner) {
-      expect_statement("vertex");
-      std::array<double, 3> point{};
-      std::array<std::uint64_t, 3> offsets{};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        point[axis] = scanner_.next_double("a coordinate");
-        offsets[axis] = scanner_.token_offset();
-      }
-      collector_.add_corner(point, offsets);
-    }
-    expect_statement("endloop");
-    expect_statement("endfacet");
-  }
-
-  void expect(std::string_view word) {
-    const std::string_view token = scanner_.next_token(word);
-    if (!is_word(token, word)) {
-      scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
-    }
-  }
-
-  void expect_statement(std::string_view word) {
-    const std::string_view token = next_word(word);
-    if (!is_word(token, word)) {
-      scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
-    }
-  }
-
-  /// The first word of the next statement.
-  std::string_view next_word(std::string_view what) {
-    skip_unknown_lines();
-    return scanner_.next_token(what);
+    return expect("solid");
   }
 
   /// Passes over lines that begin with a word that STL does not know, such as 'color'.
@@ -297,7 +262,7 @@ class TextReader {
   FileBytes bytes_;
   FileWorkers workers_;
   TextScanner scanner_;
-  FacetCollector collector_;
+  StlTextFacets facets_;
   std::set<std::string_view> unknown_;  ///< first words of lines that were passed over
   bool has_end_ = false;                ///< the last solid has its 'endsolid'
 };
