@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -217,7 +216,9 @@ class PlainObjReader {
     bool plain = true;
     while (plain && lines.next()) {
       if (lines.keyword() == "v") {
-        plain = read_vertex(lines, at.vertices, part.has_colours_or_weights);
+        PlainNumbers numbers(text_, lines.offset());
+        plain = read_obj_vertex(numbers, at.vertices, document_, sites_, part.has_colours_or_weights);
+        lines.seek(numbers.offset());
         ++at.vertices;
       } else if (const std::size_t least = least_vertices(lines.keyword()); least > 0) {
         plain = read_element(lines, least, at);
@@ -226,27 +227,6 @@ class PlainObjReader {
       }
     }
     return plain;
-  }
-
-  /// x y z, and a weight or a colour, or both.
-  bool read_vertex(StatementLines& lines, std::size_t vertex, bool& has_colours_or_weights) {
-    PlainNumbers numbers(text_, lines.offset());
-    for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
-      if (numbers.at_end_of_line() || !numbers.next(document_.points[i]) || !std::isfinite(document_.points[i])) {
-        return false;
-      }
-      sites_.offsets[i] = numbers.token_offset();
-    }
-    std::size_t count = 3;
-    for (; !numbers.at_end_of_line(); ++count) {
-      double more = 0;
-      if (!numbers.next(more) || !std::isfinite(more)) {
-        return false;
-      }
-    }
-    lines.seek(numbers.offset());
-    has_colours_or_weights = has_colours_or_weights || count > 3;
-    return count == 3 || count == 4 || count == 6 || count == 7;
   }
 
   bool read_element(StatementLines& lines, std::size_t least, Counts& at) {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/obj/obj_plain_reader.h"
@@ -60,30 +59,22 @@ class ObjReader {
     }
   }
 
-  /// x y z, and a weight or a colour, or both.
   void read_vertex() {
     if (document_.point_count() >= std::numeric_limits<std::int32_t>::max()) {
       scanner_.fail("has more vertices than 32-bit indices can tell apart");
     }
     const std::size_t vertex = document_.point_count();
-    std::size_t count = 0;
-    for (; !scanner_.at_end_of_line(); ++count) {
-      const double value = scanner_.next_double("a number of a vertex");
-      if (count < 3) {
-        document_.points.push_back(value);
-        sites_.offsets.push_back(scanner_.token_offset());
-      }
-    }
-    if (count != 3 && count != 4 && count != 6 && count != 7) {
-      scanner_.fail("vertex " + std::to_string(vertex + 1) +
-                    ": expected 3 coordinates (and a weight, a colour or both), got " +
-                    counted(count, "number", "numbers"));
-    }
-    if (count > 3) {
+    document_.points.resize(3 * vertex + 3);
+    sites_.offsets.resize(3 * vertex + 3);
+    bool has_more = false;
+    read_obj_vertex(scanner_, vertex, document_, sites_, has_more);
+    if (has_more) {
       statements_.add_colours_or_weights();
     }
   }
 
+  /// Apart from that of the plain reader, which counts all statements first: here room is made vertex by vertex, and
+  /// whether a vertex that stands further behind exists is known at the end alone.
   void read_element(const char* what, std::size_t least) {
     CellList& cells = document_.cells;
     const std::size_t statement = scanner_.token_offset();

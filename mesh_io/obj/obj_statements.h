@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -8,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/base/text/counted.h"
+#include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -20,6 +23,28 @@ std::size_t least_vertices(std::string_view keyword);
 
 /// The cell type of an element with that least number of vertices.
 std::uint8_t obj_cell_type(std::size_t least, std::size_t vertices);
+
+/// Reads the rest of a statement "v": x y z, and a weight or a colour, or both, which are told by `has_more`. There is
+/// room for the vertex. Numbers are plain or careful (see PlainSource).
+template <class Numbers>
+bool read_obj_vertex(Numbers& numbers, std::size_t vertex, MeshDocument& document, NumberSites& sites, bool& has_more) {
+  std::size_t count = 0;
+  for (; !numbers.at_end_of_line(); ++count) {
+    double value = 0;
+    if (!numbers.next(value, "a number of a vertex") || !std::isfinite(value)) {
+      return false;
+    }
+    if (count < 3) {
+      document.points[3 * vertex + count] = value;
+      sites.offsets[3 * vertex + count] = numbers.token_offset();
+    }
+  }
+  has_more = has_more || count > 3;
+  return count == 3 || count == 4 || count == 6 || count == 7 || numbers.refuse([&] {
+    return "vertex " + std::to_string(vertex + 1) + ": expected 3 coordinates (and a weight, a colour or both), got " +
+           counted(count, "number", "numbers");
+  });
+}
 
 /// Appends the words of a line to a name, in which words are one blank apart.
 void append_name(std::string& name, std::string_view line);
