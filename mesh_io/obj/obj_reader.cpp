@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/obj/obj_plain_reader.h"
 #include "trismooth/mesh_io/obj/obj_statements.h"
+#include "trismooth/mesh_io/text/careful_numbers.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
@@ -67,7 +68,8 @@ class ObjReader {
     document_.points.resize(3 * vertex + 3);
     sites_.offsets.resize(3 * vertex + 3);
     bool has_more = false;
-    read_obj_vertex(scanner_, vertex, document_, sites_, has_more);
+    CarefulNumbers numbers(scanner_);
+    read_obj_vertex(numbers, vertex, document_, sites_, has_more);
     if (has_more) {
       statements_.add_colours_or_weights();
     }

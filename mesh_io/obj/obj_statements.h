@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -31,7 +30,7 @@ bool read_obj_vertex(Numbers& numbers, std::size_t vertex, MeshDocument& documen
   std::size_t count = 0;
   for (; !numbers.at_end_of_line(); ++count) {
     double value = 0;
-    if (!numbers.next(value, "a number of a vertex") || !std::isfinite(value)) {
+    if (!numbers.next_real(value, "a number of a vertex")) {
       return false;
     }
     if (count < 3) {
@@ -40,7 +39,7 @@ bool read_obj_vertex(Numbers& numbers, std::size_t vertex, MeshDocument& documen
     }
   }
   has_more = has_more || count > 3;
-  return count == 3 || count == 4 || count == 6 || count == 7 || numbers.refuse([&] {
+  return count == 3 || count == 4 || count == 6 || count == 7 || numbers.fail([&](std::string_view /*number*/) {
     return "vertex " + std::to_string(vertex + 1) + ": expected 3 coordinates (and a weight, a colour or both), got " +
            counted(count, "number", "numbers");
   });

@@ -40,17 +40,6 @@ class TextScanner {
   /// The next token as a whole number within [lowest, highest]; fails on anything else.
   std::int64_t next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest);
 
-  // It is careful numbers (see PlainSource).
-  static constexpr bool is_plain = false;
-  bool next(double& value, std::string_view what) {
-    value = next_double(what);
-    return true;
-  }
-  template <class Message>
-  [[noreturn]] bool refuse(const Message& message) const {
-    fail(message());
-  }
-
   /// The rest of this line as it is, comments and continuations too, without its end; stands at the next line then.
   std::string_view next_line();
 

@@ -100,7 +100,7 @@ class ArrayReader {
     input_.next_token("the name of a field");
     const std::uint64_t array_count = input_.next_count("the number of arrays");
     sites_.declared_arrays = array_count;
-    sites_.count_begin = input_.value_offset();
+    sites_.count_begin = input_.token_offset();
     sites_.count_end = input_.offset();
     input_.pass_comment();
     for (std::uint64_t i = 0; i < array_count; ++i) {
@@ -170,12 +170,10 @@ class ArrayReader {
     const std::uint64_t count = input_.value_count(components, target_.rows, "colours");
     std::vector<std::uint8_t> colors;
     if (input_.is_binary()) {
-      colors = input_.read_values<std::uint8_t>(count, "colours");
+      colors = input_.read_values<std::uint8_t>(count, "colours", "a colour");
     } else {
-      input_.begin_values(count, 1, "colours");
       colors.reserve(count);
-      for (std::uint64_t i = 0; i < count; ++i) {
-        const auto value = input_.next_value<float>("a colour");
+      for (const float value : input_.read_values<float>(count, "colours", "a colour")) {
         const double fraction = value > 0 ? std::min(1.0, static_cast<double>(value)) : 0;
         colors.push_back(static_cast<std::uint8_t>(std::lround(255.0 * fraction)));
       }
@@ -189,13 +187,10 @@ class ArrayReader {
     const std::string name = input_.next_name("the name of a lookup table");
     const std::uint64_t size = input_.next_count("the number of colours");
     const std::uint64_t count = input_.value_count(size, rgba, "colours");
-    input_.begin_values(count, 1, "colours");
-    for (std::uint64_t i = 0; i < count; ++i) {
-      if (input_.is_binary()) {
-        input_.next_value<std::uint8_t>("a colour");
-      } else {
-        input_.next_value<float>("a colour");
-      }
+    if (input_.is_binary()) {
+      input_.read_values<std::uint8_t>(count, "colours", "a colour");
+    } else {
+      input_.read_values<float>(count, "colours", "a colour");
     }
     notes_.push_back("lookup table " + trismooth::quoted(name) + " is kept in this file only, not in other formats");
   }

@@ -1,5 +1,6 @@
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_cells.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -41,60 +42,58 @@ class CellsReader {
                   std::to_string(size) + " integers");
     }
     input_.begin_values(size, size_of(default_integer), "integers in " + std::string(section_));
-    if (read_plain_cells(cell_count, size)) {
-      return;
-    }
-    cells_.offsets.reserve(cell_count + 1);
-    cells_.connectivity.reserve(size - cell_count);
-    auto left = static_cast<std::int64_t>(size);
-    for (std::uint64_t cell = 0; cell < cell_count; ++cell) {
-      const std::int64_t degree = input_.next_integer(default_integer, "the number of a cell's vertices");
-      --left;
-      if (degree < 0 || degree > left) {
-        input_.fail(name_of(cell) + " has " + std::to_string(degree) + " vertices, but of the size declared (" +
-                    std::to_string(size) + ") only " + std::to_string(left) + " is left");
-      }
-      left -= degree;
-      read_vertices(cell, degree, default_integer);
-      cells_.offsets.push_back(static_cast<std::int64_t>(cells_.connectivity.size()));
-    }
-    if (left != 0) {
-      input_.fail(std::string(section_) + " declares a size of " + std::to_string(size) + ", but its " +
-                  std::to_string(cell_count) + " cells take " + std::to_string(static_cast<std::int64_t>(size) - left));
-    }
-  }
-
-  /// Cells of one size each.
-  bool read_plain_cells(std::uint64_t cell_count, std::uint64_t size) {
-    if (input_.is_binary() || cell_count == 0 || size % cell_count != 0) {
-      return false;
-    }
-    const std::uint64_t degree = size / cell_count - 1;
     shared_resize(cells_.connectivity, size - cell_count, cells_.offsets, cell_count + 1, input_.workers());
-    const bool plain = input_.read_plain_rows(
-        cell_count, degree + 1, [this, degree](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-          for (std::size_t cell = first; cell < last; ++cell) {
-            std::uint64_t vertices = 0;
-            if (!numbers.next(vertices) || vertices != degree ||
-                !read_plain_vertices(numbers, degree * cell, degree * (cell + 1))) {
-              return false;
-            }
-            cells_.offsets[cell + 1] = static_cast<std::int64_t>(degree * (cell + 1));
-          }
-          return true;
-        });
-    if (!plain) {
-      cells_ = {};
+    // Where cells may be of one size each; plain ones are.
+    const std::uint64_t columns = cell_count > 0 && size % cell_count == 0 ? size / cell_count : 0;
+    const auto read_cells = [&]<class Numbers>(Numbers& numbers, std::size_t first, std::size_t last) {
+      std::uint64_t corner = first == 0 ? 0 : first * (columns - 1);
+      for (std::uint64_t cell = first; cell < last; ++cell) {
+        std::int64_t degree = 0;
+        if (!numbers.next(degree, "the number of a cell's vertices")) {
+          return false;
+        }
+        const std::int64_t left = static_cast<std::int64_t>(size - corner - cell) - 1;
+        if (degree < 0 || degree > left || (Numbers::is_plain && static_cast<std::uint64_t>(degree) + 1 != columns)) {
+          return numbers.fail([&](std::string_view /*number*/) {
+            return name_of(cell) + " has " + std::to_string(degree) + " vertices, but of the size declared (" +
+                   std::to_string(size) + ") only " + std::to_string(left) + " is left";
+          });
+        }
+        const std::uint64_t end = corner + static_cast<std::uint64_t>(degree);
+        if (!Numbers::is_plain && end > cells_.connectivity.size()) {
+          cells_.connectivity.resize(end);  // of a size that is wrong, which cells behind this one show
+        }
+        if (!read_vertices(numbers, corner, end, [cell](std::size_t) { return cell; })) {
+          return false;
+        }
+        corner = end;
+        cells_.offsets[cell + 1] = static_cast<std::int64_t>(corner);
+      }
+      return true;
+    };
+    input_.read_rows(cell_count, columns, read_cells, default_integer);
+    const std::uint64_t taken = cell_count + static_cast<std::uint64_t>(cells_.offsets.back());
+    if (taken != size) {
+      input_.fail(std::string(section_) + " declares a size of " + std::to_string(size) + ", but its " +
+                  std::to_string(cell_count) + " cells take " + std::to_string(taken));
     }
-    return plain;
   }
 
-  bool read_plain_vertices(PlainNumbers& numbers, std::size_t first, std::size_t last) {
+  /// Vertices first to last - 1 of all cells, with room for them; cell_of(i) is the cell of vertex i.
+  template <class Numbers, class CellOf>
+  bool read_vertices(Numbers& numbers, std::size_t first, std::size_t last, const CellOf& cell_of) {
     for (std::size_t i = first; i < last; ++i) {
-      std::int32_t& vertex = cells_.connectivity[i];
-      if (!numbers.next(vertex) || vertex < 0 || vertex >= point_count_) {
+      std::int64_t vertex = 0;
+      if (!numbers.next(vertex, "a vertex of a cell")) {
         return false;
       }
+      if (vertex < 0 || vertex >= point_count_) {
+        return numbers.fail([&](std::string_view /*number*/) {
+          return name_of(cell_of(i)) + " has vertex " + std::to_string(vertex) + ", but the file has " +
+                 std::to_string(point_count_) + " points";
+        });
+      }
+      cells_.connectivity[i] = static_cast<std::int32_t>(vertex);
     }
     return true;
   }
@@ -103,18 +102,25 @@ class CellsReader {
     input_.expect_keyword("offsets");
     const ScalarType type = next_integer_type();
     input_.begin_values(offset_count, size_of(type), "offsets");
-    cells_.offsets.clear();
-    cells_.offsets.reserve(offset_count);
+    cells_.offsets.assign(offset_count, 0);
     std::int64_t previous = 0;
-    for (std::uint64_t i = 0; i < offset_count; ++i) {
-      const std::int64_t offset = input_.next_integer(type, "an offset");
-      if (i == 0 ? offset != 0 : offset < previous) {
-        input_.fail("offset " + std::to_string(i) + " of " + std::string(section_) + " is " + std::to_string(offset) +
-                    "; expected " + (i == 0 ? "" : "at least ") + std::to_string(previous));
+    const auto read = [&](auto& numbers, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        std::int64_t& offset = cells_.offsets[i];
+        if (!numbers.next(offset, "an offset")) {
+          return false;
+        }
+        if (i == 0 ? offset != 0 : offset < previous) {
+          return numbers.fail([&](std::string_view /*number*/) {
+            return "offset " + std::to_string(i) + " of " + std::string(section_) + " is " + std::to_string(offset) +
+                   "; expected " + (i == 0 ? "" : "at least ") + std::to_string(previous);
+          });
+        }
+        previous = offset;
       }
-      cells_.offsets.push_back(offset);
-      previous = offset;
-    }
+      return true;
+    };
+    input_.read_rows(offset_count, 0, read, type);  // not in parts: each is compared with the one before
     if (previous != static_cast<std::int64_t>(connectivity_count) || offset_count == 0) {
       input_.fail("the offsets of " + std::string(section_) + " end at " + std::to_string(previous) + ", but " +
                   std::to_string(connectivity_count) + " vertices are declared");
@@ -127,29 +133,15 @@ class CellsReader {
     const ScalarType type = next_integer_type();
     input_.begin_values(connectivity_count, size_of(type), "vertices of cells");
     shared_resize(cells_.connectivity, connectivity_count, input_.workers());
-    if (input_.read_plain_rows(connectivity_count, 1,
-                               [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-                                 return read_plain_vertices(numbers, first, last);
-                               })) {
-      input_.read_metadata(1);
-      return;
-    }
-    cells_.connectivity.clear();
-    for (std::size_t cell = 0; cell + 1 < cells_.offsets.size(); ++cell) {
-      read_vertices(cell, cells_.offsets[cell + 1] - cells_.offsets[cell], type);
-    }
+    const auto cell_of = [this](std::size_t i) {
+      return static_cast<std::uint64_t>(std::ranges::upper_bound(cells_.offsets, static_cast<std::int64_t>(i)) -
+                                        cells_.offsets.begin() - 1);
+    };
+    const auto read = [&](auto& numbers, std::size_t first, std::size_t last) {
+      return read_vertices(numbers, first, last, cell_of);
+    };
+    input_.read_rows(connectivity_count, 1, read, type);
     input_.read_metadata(1);
-  }
-
-  void read_vertices(std::uint64_t cell, std::int64_t degree, ScalarType type) {
-    for (std::int64_t i = 0; i < degree; ++i) {
-      const std::int64_t vertex = input_.next_integer(type, "a vertex of a cell");
-      if (vertex < 0 || vertex >= point_count_) {
-        input_.fail(name_of(cell) + " has vertex " + std::to_string(vertex) + ", but the file has " +
-                    std::to_string(point_count_) + " points");
-      }
-      cells_.connectivity.push_back(static_cast<std::int32_t>(vertex));
-    }
   }
 
   ScalarType next_integer_type() {
@@ -186,32 +178,32 @@ void read_vtk_legacy_cell_types(VtkLegacyInput& input, CellList& cells) {
   }
   input.begin_values(type_count, size_of(default_integer), "cell types");
   shared_resize(cells.types, cell_count, input.workers());
-  if (input.read_plain_rows(cell_count, 1, [&cells](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-        for (std::size_t cell = first; cell < last; ++cell) {
-          std::uint8_t& type = cells.types[cell];
-          if (!numbers.next(type) || type == polyhedron || !cell_size_of(type).allows(cells[cell].size())) {
-            return false;
-          }
-        }
-        return true;
-      })) {
-    return;
-  }
-  cells.types.clear();
-  for (std::size_t cell = 0; cell < cell_count; ++cell) {
-    const std::int64_t type = input.next_integer(default_integer, "a cell type");
-    if (type < 0 || type > std::numeric_limits<std::uint8_t>::max()) {
-      input.fail("cell " + std::to_string(cell) + " has the type " + std::to_string(type) + "; expected 0 to 255");
+  const auto read_types = [&cells](auto& numbers, std::size_t first, std::size_t last) {
+    for (std::size_t cell = first; cell < last; ++cell) {
+      std::int64_t type = 0;
+      if (!numbers.next(type, "a cell type")) {
+        return false;
+      }
+      const auto name = [cell] { return "cell " + std::to_string(cell); };
+      if (type < 0 || type > std::numeric_limits<std::uint8_t>::max()) {
+        return numbers.fail([&](std::string_view /*number*/) {
+          return name() + " has the type " + std::to_string(type) + "; expected 0 to 255";
+        });
+      }
+      if (type == polyhedron) {
+        // Its entry in CELLS lists faces, not vertices.
+        return numbers.fail(
+            [&](std::string_view /*number*/) { return name() + " is a polyhedron (type 42), which is not supported"; });
+      }
+      cells.types[cell] = static_cast<std::uint8_t>(type);
+      if (const std::size_t size = cells[cell].size(); !cell_size_of(cells.types[cell]).allows(size)) {
+        return numbers.fail(
+            [&](std::string_view /*number*/) { return name() + " " + describe_wrong_size(cells.types[cell], size); });
+      }
     }
-    if (type == polyhedron) {
-      // Its entry in CELLS lists faces, not vertices.
-      input.fail("cell " + std::to_string(cell) + " is a polyhedron (type 42), which is not supported");
-    }
-    cells.types.push_back(static_cast<std::uint8_t>(type));
-    if (!cell_size_of(cells.types.back()).allows(cells[cell].size())) {
-      input.fail("cell " + std::to_string(cell) + " " + describe_wrong_size(cells.types.back(), cells[cell].size()));
-    }
-  }
+    return true;
+  };
+  input.read_rows(cell_count, 1, read_types, default_integer);
 }
 
 }  // namespace trismooth

@@ -222,33 +222,28 @@ T VtkLegacyInput::next_binary_value(std::string_view what) {
 }
 
 template <class T>
-T VtkLegacyInput::next_value(std::string_view what) {
-  return binary_ ? next_binary_value<T>(what) : next_text_value<T>(what);
-}
-
-std::int64_t VtkLegacyInput::next_integer(ScalarType type, std::string_view what) {
+bool VtkLegacyInput::next(T& value, std::string_view what) {
   if (!binary_) {
-    return next_text_value<std::int64_t>(what);
+    value = next_text_value<T>(what);
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    value = visit_scalar_type(
+        stored_, [&](auto zero) { return static_cast<std::int64_t>(next_binary_value<decltype(zero)>(what)); });
+  } else {
+    value = next_binary_value<T>(what);
   }
-  return visit_scalar_type(type,
-                           [&](auto zero) { return static_cast<std::int64_t>(next_value<decltype(zero)>(what)); });
+  return true;
 }
 
 template <class T>
-std::vector<T> VtkLegacyInput::read_values(std::uint64_t count, std::string_view what) {
+std::vector<T> VtkLegacyInput::read_values(std::uint64_t count, std::string_view what, std::string_view each) {
   begin_values(count, sizeof(T), what);
   std::vector<T> values;
   shared_resize(values, count, workers_);
-  if (read_plain_rows(count, 1, [&values](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-        return std::all_of(values.begin() + static_cast<std::ptrdiff_t>(first),
-                           values.begin() + static_cast<std::ptrdiff_t>(last),
-                           [&numbers](T& value) { return numbers.next(value); });
-      })) {
-    return values;
-  }
-  for (T& value : values) {
-    value = next_value<T>(what);
-  }
+  read_rows(count, 1, [&](auto& numbers, std::size_t first, std::size_t last) {
+    return std::all_of(values.begin() + static_cast<std::ptrdiff_t>(first),
+                       values.begin() + static_cast<std::ptrdiff_t>(last),
+                       [&](T& value) { return numbers.next(value, each.empty() ? what : each); });
+  });
   return values;
 }
 
@@ -382,9 +377,10 @@ void VtkLegacyInput::read_information(const std::vector<std::string_view>& heade
   }
 }
 
-#define TRISMOOTH_INSTANTIATE(T)                                   \
-  template T VtkLegacyInput::next_value<T>(std::string_view what); \
-  template std::vector<T> VtkLegacyInput::read_values<T>(std::uint64_t count, std::string_view what);
+#define TRISMOOTH_INSTANTIATE(T)                                                                     \
+  template bool VtkLegacyInput::next<T>(T & value, std::string_view what);                           \
+  template std::vector<T> VtkLegacyInput::read_values<T>(std::uint64_t count, std::string_view what, \
+                                                         std::string_view each);
 TRISMOOTH_INSTANTIATE(std::int8_t)
 TRISMOOTH_INSTANTIATE(std::uint8_t)
 TRISMOOTH_INSTANTIATE(std::int16_t)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -59,33 +60,42 @@ class VtkLegacyInput {
   /// Stands before `count` values, of `bytes_each` in BINARY files: fails where the rest of the file cannot hold them,
   /// and passes the end of the header line before BINARY data.
   void begin_values(std::uint64_t count, std::size_t bytes_each, std::string_view what);
-  /// The next value. In ASCII files any white space may stand before it, integers are checked for their range, and
-  /// numbers of floating point may be infinite or NaN.
-  template <class T>
-  T next_value(std::string_view what);
-  /// The next value of a list of integers; of `type` in BINARY files, of up to 64 bits in ASCII ones.
-  std::int64_t next_integer(ScalarType type, std::string_view what);
   /// Byte offset of what is read next, before any white space.
   std::size_t offset() const { return scanner_.offset(); }
   /// Byte offset of the token or value that was read last.
-  std::size_t value_offset() const { return binary_ ? place_ : scanner_.token_offset(); }
+  std::size_t token_offset() const { return binary_ ? place_ : scanner_.token_offset(); }
   /// Passes what is left of the line, if that is a comment.
   void pass_comment();
-  /// begin_values(), then all of them.
+  /// begin_values(), then all of them. `each` is what one of them is called, `what` if it is empty.
   template <class T>
-  std::vector<T> read_values(std::uint64_t count, std::string_view what);
+  std::vector<T> read_values(std::uint64_t count, std::string_view what, std::string_view each = {});
   /// The same for single bits, as 0 and 1: eight a byte in BINARY files, the first one in the highest bit.
   std::vector<std::uint8_t> read_bits(std::uint64_t count, std::string_view what);
 
-  /// Tries to read rows of plain numbers of an ASCII file by all workers, as PlainRows::read() does. Where it answers
-  /// false, the input stands where it stood, and `body` may have written anything.
+  // It is careful numbers itself (see PlainSource).
+  static constexpr bool is_plain = false;
+  /// The next value. In ASCII files any white space may stand before it, integers are checked for their range, and
+  /// numbers of floating point may be infinite or NaN.
+  template <class T>
+  bool next(T& value, std::string_view what);
+  /// Fails with the message, which is not told the number.
+  template <std::invocable<std::string_view> Message>
+  [[noreturn]] bool fail(const Message& message) const {
+    fail(message(std::string_view()));
+  }
+  /// Reads rows of `columns` numbers (0: not of as many each) by body(numbers, first, last), which reads rows first to
+  /// last - 1 and answers as the numbers do: in parts, by all workers, where an ASCII file has plain ones (see
+  /// PlainRows), else all of them from here. Integers that the body reads as those of 64 bits are of the type `stored`
+  /// in BINARY files. Behind begin_values().
   template <class Body>
-  bool read_plain_rows(std::uint64_t rows, std::uint64_t columns, const Body& body) {
-    const auto end = binary_ || rows == 0 ? std::nullopt : plain_rows_.read(scanner_.offset(), rows, columns, body);
-    if (end) {
+  void read_rows(std::uint64_t rows, std::uint64_t columns, const Body& body, ScalarType stored = ScalarType::int64) {
+    const bool may_be_plain = !binary_ && rows > 0 && columns > 0;
+    if (const auto end = may_be_plain ? plain_rows_.read(scanner_.offset(), rows, columns, body) : std::nullopt) {
       scanner_.resume(end->last_number, end->offset);
+    } else {
+      stored_ = stored;
+      body(*this, std::size_t{0}, rows);
     }
-    return end.has_value();
   }
   /// Who shares the work.
   Workers& workers() const { return workers_; }
@@ -121,7 +131,8 @@ class VtkLegacyInput {
   Workers& workers_;
   PlainRows plain_rows_;
   bool binary_ = false;
-  std::size_t place_ = 0;  ///< byte offset of the token or BINARY value that was read last
+  ScalarType stored_ = ScalarType::int64;  ///< see read_rows()
+  std::size_t place_ = 0;                  ///< byte offset of the token or BINARY value that was read last
 };
 
 }  // namespace trismooth

@@ -123,8 +123,8 @@ class GeometryReader {
     if (point_count > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max())) {
       input_.fail("declares " + std::to_string(point_count) + " points; at most 2147483647 are supported");
     }
-    layout_.type_offset = input_.value_offset();
-    layout_.type_length = input_.offset() - input_.value_offset();
+    layout_.type_offset = input_.token_offset();
+    layout_.type_length = input_.offset() - input_.token_offset();
     NumberSites& sites = layout_.coordinates;
     sites.type = type.scalar;
     sites.encoding = input_.is_binary() ? NumberEncoding::big_endian : NumberEncoding::text;
@@ -142,40 +142,27 @@ class GeometryReader {
   void read_coordinates(std::uint64_t count) {
     input_.begin_values(count, sizeof(T), "coordinates");
     shared_resize(document_.points, count, layout_.coordinates.offsets, count, input_.workers());
-    if (read_plain_coordinates<T>(count)) {
-      return;
-    }
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const T value = input_.next_value<T>("a coordinate");
-      const auto coordinate = static_cast<double>(value);
-      if constexpr (std::is_floating_point_v<T>) {
-        if (!std::isfinite(value)) {
-          input_.fail("a coordinate of point " + std::to_string(i / 3) + " is not a finite number");
-        }
-      } else if (!holds_exactly<T>(coordinate) || static_cast<T>(coordinate) != value) {
-        input_.fail("a coordinate of point " + std::to_string(i / 3) + " is " + std::to_string(value) +
-                    ", which double precision does not hold");
-      }
-      document_.points[i] = coordinate;
-      layout_.coordinates.offsets[i] = input_.value_offset();
-    }
-  }
-
-  template <class T>
-  bool read_plain_coordinates(std::uint64_t count) {
-    return input_.read_plain_rows(count, 1, [this](PlainNumbers& numbers, std::size_t first, std::size_t last) {
-      bool plain = true;
-      for (std::size_t i = first; i < last && plain; ++i) {
+    input_.read_rows(count, 1, [this](auto& numbers, std::size_t first, std::size_t last) {
+      bool read = true;
+      for (std::size_t i = first; i < last && read; ++i) {
         T value{};
-        plain = numbers.next(value) && std::isfinite(static_cast<double>(value));
+        read = numbers.next(value, "a coordinate");
         const auto coordinate = static_cast<double>(value);
-        if constexpr (!std::is_floating_point_v<T>) {
-          plain = plain && holds_exactly<T>(coordinate) && static_cast<T>(coordinate) == value;
+        if constexpr (std::is_floating_point_v<T>) {
+          read = read && (std::isfinite(value) || numbers.fail([i](std::string_view /*number*/) {
+                   return "a coordinate of point " + std::to_string(i / 3) + " is not a finite number";
+                 }));
+        } else {
+          const bool is_exact = holds_exactly<T>(coordinate) && static_cast<T>(coordinate) == value;
+          read = read && (is_exact || numbers.fail([i, value](std::string_view /*number*/) {
+                   return "a coordinate of point " + std::to_string(i / 3) + " is " + std::to_string(value) +
+                          ", which double precision does not hold";
+                 }));
         }
         document_.points[i] = coordinate;
         layout_.coordinates.offsets[i] = numbers.token_offset();
       }
-      return plain;
+      return read;
     });
   }
 
