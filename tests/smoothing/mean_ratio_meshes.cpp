@@ -104,7 +104,7 @@ struct Layers {
       const std::int32_t first = stretched.vertex_count() - 3;
       stretched.triangles.push_back({first, first + 1, first + 2});
     }
-    return shapes(stretched, stretched.xy());
+    return mean_ratio_meshes_test::shapes(stretched, stretched.xy());
   }
 };
 
