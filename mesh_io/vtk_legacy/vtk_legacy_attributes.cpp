@@ -172,8 +172,9 @@ class ArrayReader {
     if (input_.is_binary()) {
       colors = input_.read_values<std::uint8_t>(count, "colours", "a colour");
     } else {
-      colors.reserve(count);
-      for (const float value : input_.read_values<float>(count, "colours", "a colour")) {
+      const std::vector<float> values = input_.read_values<float>(count, "colours", "a colour");
+      colors.reserve(values.size());
+      for (const float value : values) {
         const double fraction = value > 0 ? std::min(1.0, static_cast<double>(value)) : 0;
         colors.push_back(static_cast<std::uint8_t>(std::lround(255.0 * fraction)));
       }
