@@ -14,15 +14,15 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view xml_blanks = " \t\r\n";
 
 /// Where the value of that attribute stands in the start tag that ends at `tag_end`. The bytes are known to be XML, and
 /// the tag to have the attribute.
 PieceName place_of_value(std::string_view bytes, std::size_t tag_end, std::string_view attribute) {
   // (No value holds a '<'.)
-  std::size_t at = bytes.find_first_of(blanks, bytes.rfind('<', tag_end - 1));
+  std::size_t at = bytes.find_first_of(xml_blanks, bytes.rfind('<', tag_end - 1));
   for (;;) {
-    const std::size_t name = bytes.find_first_not_of(blanks, at);
+    const std::size_t name = bytes.find_first_not_of(xml_blanks, at);
     const std::size_t name_end = bytes.find_first_of(" \t\r\n=", name);
     const std::size_t quote = bytes.find_first_of("\"'", name_end);
     const std::size_t end = bytes.find(bytes[quote], quote + 1);
