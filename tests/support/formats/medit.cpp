@@ -19,14 +19,14 @@ namespace {
 /// What text files are made of: all but the head in front of the triangles, so that a file that is cut is seen to be.
 constexpr std::string_view flat_vertices = "Vertices\n5\n0 0 1\n2 0 2\n2 2 3\n0 2 4\n0.75 1.25 0\n";
 constexpr std::string_view vertices_in_space = "Vertices\n5\n0 0 0 0\n2 0 0 0\n2 2 0 0\n0 2 0 0\n0.75 1.25 0 0\n";
-constexpr std::string_view triangles = "Triangles\n4\n1 2 5 7\n2 3 5 7\n3 4 5 8\n4 1 5 8\n";
+constexpr std::string_view triangle_section = "Triangles\n4\n1 2 5 7\n2 3 5 7\n3 4 5 8\n4 1 5 8\n";
 
 void add_medit_text(std::vector<AcceptedFile>& files) {
   const auto add = [&files](const std::string& name, std::string bytes) {
     files.push_back({"medit_" + name, ".mesh", std::move(bytes)});
   };
   const std::string flat(flat_vertices);
-  const std::string faces(triangles);
+  const std::string faces(triangle_section);
   const std::string plain = "MeshVersionFormatted 2\n\nDimension 2\n\n" + flat + "\n" + faces + "\nEnd\n";
   add("flat", plain);
   add("in_space", " MeshVersionFormatted 2\n Dimension\n 3\n " + std::string(vertices_in_space) + faces + " End\n");
