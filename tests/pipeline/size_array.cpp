@@ -120,6 +120,7 @@ TEST_CASE("what is no array of sizes is refused in words") {
 TEST_CASE("an array of sizes is not taken for regions, unless it is named for that, too") {
   Sample sample;
   // A strip of four triangles.
+  sample.document.points = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0};
   sample.mesh.points = {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}};
   sample.mesh.triangles_of_cells = {{0, 2, 1}, {2, 3, 1}, {2, 4, 3}, {4, 5, 3}};
   sample.mesh.triangles = sample.mesh.triangles_of_cells;
