@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/number_lists.h"
@@ -167,19 +169,16 @@ class Commit final : public FollowingNodes {
 
   /// What went back gets the numbers that were read, the others their places in the plane: how many there are.
   std::int64_t settle() {
-    std::atomic<std::int64_t> elsewhere{0};
-    for_blocks(points_.size(), [&](std::size_t begin, std::size_t end) {
-      std::int64_t elsewhere_here = 0;
-      for (std::size_t v = begin; v < end; ++v) {
-        if (is_elsewhere(v)) {
+    const std::int64_t elsewhere =
+        joined_sum(std::ssize(points_), commit_grain, workers_, [this](std::int64_t i) -> std::int64_t {
+          const auto v = static_cast<std::size_t>(i);
+          if (!is_elsewhere(v)) {
+            put_back(v);
+            return 0;
+          }
           points_[v] = image_.place(v, numbers(v));
-          ++elsewhere_here;
-        } else {
-          put_back(v);
-        }
-      }
-      elsewhere.fetch_add(elsewhere_here, std::memory_order_relaxed);
-    });
+          return 1;
+        });
     return elsewhere - std::ranges::count_if(mesh_.middles, [this](const MiddleNode& middle) {
              return is_elsewhere(static_cast<std::size_t>(middle.vertex));
            });
