@@ -110,6 +110,16 @@ class Communicator {
     return from;
   }
 
+  /// What the ranks have, one rank's after the other's, on all of them. Collective.
+  template <class V>
+  std::vector<V> of_all(const std::vector<V>& own) const {
+    std::vector<V> all;
+    for (const auto& list : exchanged(ByRank<V>(static_cast<std::size_t>(size_), own))) {
+      all.insert(all.end(), list.begin(), list.end());
+    }
+    return all;
+  }
+
   /// Gives all ranks what rank 0 has. Collective.
   template <class V>
   void broadcast(std::vector<V>& values) const {

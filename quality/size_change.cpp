@@ -37,38 +37,30 @@ void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<
 }
 
 /// Finds ratios by their rank among those that are numbers. These are not negative, so their bits stand in their order:
-/// they are counted by their first digits of 16 bits, those with the right ones by the next digit, and so on until few
-/// are left.
+/// they are counted by their first digits of 16 bits, those with the right ones by the next digit, and so on.
 class RatioRanks {
  public:
-  explicit RatioRanks(std::span<const double> ratios, Workers& workers)
-      : ratios_(ratios), workers_(workers), by_first_digit_(count_by_next_digit({0, 0})) {
+  RatioRanks(std::span<const double> ratios, const AddUpCounts& add_up, Workers& workers)
+      : ratios_(ratios), add_up_(add_up), workers_(workers), by_first_digit_(count_by_next_digit({0, 0})) {
     total_ = std::accumulate(by_first_digit_.begin(), by_first_digit_.end(), std::int64_t{0});
   }
 
   std::int64_t total() const { return total_; }
 
   /// The smallest ratio that `percent` per cent do not exceed. There is one.
-  double percentile(std::int64_t percent) {
+  double percentile(std::int64_t percent) const {
     std::int64_t rank = (total_ * percent + 99) / 100;
     Prefix prefix{0, 0};
-    std::int64_t count = descend(by_first_digit_, rank, prefix);
-    while (count > most_candidates && prefix.bits < 64) {
-      count = descend(count_by_next_digit(prefix), rank, prefix);
+    descend(by_first_digit_, rank, prefix);
+    while (prefix.bits < 64) {
+      descend(count_by_next_digit(prefix), rank, prefix);
     }
-    if (prefix.bits == 64) {
-      return std::bit_cast<double>(prefix.value);
-    }
-    std::vector<double> candidates = those_with(prefix);
-    const auto place = candidates.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-    std::nth_element(candidates.begin(), place, candidates.end());
-    return *place;
+    return std::bit_cast<double>(prefix.value);
   }
 
  private:
   static constexpr std::int64_t grain = 65536;
   static constexpr int digit_bits = 16;  // of the first one: sign, exponent and 16 steps an octave
-  static constexpr std::int64_t most_candidates = std::int64_t{1} << 17;
 
   /// The leading bits of a number.
   struct Prefix {
@@ -76,49 +68,37 @@ class RatioRanks {
     int bits;
   };
 
-  /// Whether it is a number with that prefix.
-  static bool is_of(Prefix prefix, double ratio) {
-    return !std::isnan(ratio) &&
-           (prefix.bits == 0 || std::bit_cast<std::uint64_t>(ratio) >> (64 - prefix.bits) == prefix.value);
-  }
-
   /// How many ratios with that prefix have each next digit.
-  std::vector<std::int64_t> count_by_next_digit(Prefix prefix) {
+  std::vector<std::int64_t> count_by_next_digit(Prefix prefix) const {
     const int shift = 64 - prefix.bits - digit_bits;
-    return joined_blocks(
+    std::vector<std::int64_t> counts = joined_blocks(
         std::ssize(ratios_), grain, workers_, std::vector<std::int64_t>(std::size_t{1} << digit_bits),
-        [&](std::int64_t begin, std::int64_t end, std::vector<std::int64_t>& counts) {
+        [&](std::int64_t begin, std::int64_t end, std::vector<std::int64_t>& of_block) {
           for (std::int64_t i = begin; i < end; ++i) {
-            if (is_of(prefix, ratios_[i])) {
-              ++counts[std::bit_cast<std::uint64_t>(ratios_[i]) >> shift & (counts.size() - 1)];
+            const auto bits = std::bit_cast<std::uint64_t>(ratios_[i]);
+            if (!std::isnan(ratios_[i]) && (prefix.bits == 0 || bits >> (64 - prefix.bits) == prefix.value)) {
+              ++of_block[bits >> shift & (of_block.size() - 1)];
             }
           }
         },
-        [](std::vector<std::int64_t>& all, const std::vector<std::int64_t>& counts) {
-          std::ranges::transform(all, counts, all.begin(), std::plus<>());
+        [](std::vector<std::int64_t>& all, const std::vector<std::int64_t>& of_block) {
+          std::ranges::transform(all, of_block, all.begin(), std::plus<>());
         });
+    add_up_(counts);
+    return counts;
   }
 
   /// Appends to the prefix the digit of the ratio with that rank, which becomes the rank among those with this prefix.
-  /// Returns how many these are.
-  static std::int64_t descend(const std::vector<std::int64_t>& counts, std::int64_t& rank, Prefix& prefix) {
+  static void descend(const std::vector<std::int64_t>& counts, std::int64_t& rank, Prefix& prefix) {
     std::size_t digit = 0;
     while (counts[digit] < rank) {
       rank -= counts[digit++];
     }
     prefix = {prefix.value << digit_bits | digit, prefix.bits + digit_bits};
-    return counts[digit];
-  }
-
-  std::vector<double> those_with(Prefix prefix) {
-    return joined_lists<double>(std::ssize(ratios_), grain, workers_, [&](std::int64_t i, std::vector<double>& found) {
-      if (is_of(prefix, ratios_[i])) {
-        found.push_back(ratios_[i]);
-      }
-    });
   }
 
   std::span<const double> ratios_;
+  const AddUpCounts& add_up_;
   Workers& workers_;
   std::vector<std::int64_t> by_first_digit_;
   std::int64_t total_ = 0;
@@ -155,22 +135,28 @@ AreaRatios area_ratios(const TriangleView& before, const TriangleView& after, in
   return {std::move(ratios), std::move(sums)};
 }
 
-SizeChange size_change(const TriangleView& before, const TriangleView& after, int threads) {
-  const auto [ratios, sums] = area_ratios(before, after, threads);
+SizeChange size_change_of(std::span<const double> ratios, double sum, const AddUpCounts& add_up, int threads) {
   Workers workers(threads);
-  RatioRanks ranks(ratios, workers);
+  const RatioRanks ranks(ratios, add_up, workers);
+  std::vector<std::int64_t> count{std::ssize(ratios)};
+  add_up(count);
   SizeChange change;
   change.triangles = ranks.total();
-  change.left_out = std::ssize(ratios) - change.triangles;
+  change.left_out = count.front() - change.triangles;
   if (change.triangles == 0) {
     change.rms_log_ratio = change.ratio_p1 = change.ratio_p99 = no_number;
     return change;
   }
-  change.rms_log_ratio =
-      std::sqrt(std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(change.triangles));
+  change.rms_log_ratio = std::sqrt(sum / static_cast<double>(change.triangles));
   change.ratio_p1 = ranks.percentile(1);
   change.ratio_p99 = ranks.percentile(99);
   return change;
+}
+
+SizeChange size_change(const TriangleView& before, const TriangleView& after, int threads) {
+  const auto [ratios, sums] = area_ratios(before, after, threads);
+  const auto is_all = [](std::vector<std::int64_t>& /*counts*/) {};
+  return size_change_of(ratios, std::accumulate(sums.begin(), sums.end(), 0.0), is_all, threads);
 }
 
 }  // namespace trismooth

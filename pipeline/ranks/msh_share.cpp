@@ -59,9 +59,8 @@ bool has_entities_in_groups(const MeshDocument& document, const mpi::Communicato
     labels.insert(
         {cell_type::dimension(document.cells.types[c]), element_label(geometrical, c), element_label(physical, c)});
   }
-  const mpi::ByRank<Label> to_all(static_cast<std::size_t>(ranks.size()), {labels.begin(), labels.end()});
-  for (const auto& list : ranks.exchanged(to_all)) {
-    labels.insert(list.begin(), list.end());
+  for (const Label& label : ranks.of_all(std::vector(labels.begin(), labels.end()))) {
+    labels.insert(label);
   }
   return std::ranges::adjacent_find(
              labels, [](const Label& a, const Label& b) { return a[0] == b[0] && a[1] == b[1]; }) != labels.end();

@@ -82,10 +82,7 @@ class Sharing {
     first_cell_ = ranks_.sum_before(std::ssize(document_.cells.types));
     point_count_ = ranks_.sum(std::ssize(document_.points) / 3);
     cell_count_ = ranks_.sum(std::ssize(document_.cells.types));
-    for (const auto& list :
-         ranks_.exchanged(mpi::ByRank<std::int64_t>(static_cast<std::size_t>(ranks_.size()), {first_point_}))) {
-      first_points_.push_back(list.front());
-    }
+    first_points_ = ranks_.of_all(std::vector{first_point_});
     choose_ranks(partition);
   }
 

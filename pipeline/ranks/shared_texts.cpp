@@ -13,14 +13,12 @@ std::vector<std::string> texts_of_all(const std::set<std::string>& own, const mp
     bytes.insert(bytes.end(), text.begin(), text.end());
     bytes.push_back('\0');
   }
-  const mpi::ByRank<char> to_all(static_cast<std::size_t>(ranks.size()), bytes);
+  bytes = ranks.of_all(bytes);
   std::set<std::string> all;
-  for (const auto& list : ranks.exchanged(to_all)) {
-    for (auto at = list.begin(); at != list.end();) {
-      const auto end = std::find(at, list.end(), '\0');
-      all.emplace(at, end);
-      at = end + 1;
-    }
+  for (auto at = bytes.begin(); at != bytes.end();) {
+    const auto end = std::find(at, bytes.end(), '\0');
+    all.emplace(at, end);
+    at = end + 1;
   }
   return {all.begin(), all.end()};
 }

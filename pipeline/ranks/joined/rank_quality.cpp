@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <iterator>
-#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -47,40 +44,10 @@ std::vector<State> passed_on(std::vector<State> states, const mpi::Communicator&
 /// The worst triangles of all ranks, from those of each.
 std::vector<WorstElement> worst_of_all(const std::vector<WorstElement>& own, std::size_t count,
                                        const mpi::Communicator& ranks) {
-  const mpi::ByRank<WorstElement> to_all(static_cast<std::size_t>(ranks.size()), own);
-  std::vector<WorstElement> all;
-  for (const auto& list : ranks.exchanged(to_all)) {
-    all.insert(all.end(), list.begin(), list.end());
-  }
+  std::vector<WorstElement> all = ranks.of_all(own);
   std::ranges::sort(all, is_worse);
   all.resize(std::min(all.size(), count));
   return all;
-}
-
-/// Counts of ratios by their leading bits, as size_change() finds percentiles, until one value is left. Ratios are not
-/// negative, so their bits stand in their order.
-double percentile_of_all(std::span<const double> ratios, std::int64_t total, std::int64_t percent,
-                         const mpi::Communicator& ranks) {
-  constexpr int digit_bits = 16;
-  constexpr std::size_t digits = std::size_t{1} << digit_bits;
-  std::int64_t rank = (total * percent + 99) / 100;
-  std::uint64_t prefix = 0;
-  for (int bits = 0; bits < 64; bits += digit_bits) {
-    std::vector<std::int64_t> counts(digits);
-    for (const double ratio : ratios) {
-      const auto value = std::bit_cast<std::uint64_t>(ratio);
-      if (!std::isnan(ratio) && (bits == 0 || value >> (64 - bits) == prefix)) {
-        ++counts[value >> (64 - bits - digit_bits) & (digits - 1)];
-      }
-    }
-    ranks.sum(counts);
-    std::size_t digit = 0;
-    while (counts[digit] < rank) {
-      rank -= counts[digit++];
-    }
-    prefix = prefix << digit_bits | digit;
-  }
-  return std::bit_cast<double>(prefix);
 }
 
 }  // namespace
@@ -267,22 +234,13 @@ SizeChange RankQuality::size_change(std::span<const Point2<double>> before, cons
     made.ratios.insert(made.ratios.end(), of_round.ratios.begin(), of_round.ratios.end());
     made.sums.insert(made.sums.end(), of_round.sums.begin(), of_round.sums.end());
   }
-  SizeChange change;
-  change.triangles = ranks_.sum(std::ranges::count_if(made.ratios, [](double ratio) { return !std::isnan(ratio); }));
-  change.left_out = ranks_.sum(std::ssize(made.ratios)) - change.triangles;
   const double sum = passed_on(std::vector<double>(1), ranks_, [&](std::vector<double>& states) {
                        for (const double part : made.sums) {
                          states.front() += part;
                        }
                      }).front();
-  if (change.triangles == 0) {
-    change.rms_log_ratio = change.ratio_p1 = change.ratio_p99 = std::numeric_limits<double>::quiet_NaN();
-    return change;
-  }
-  change.rms_log_ratio = std::sqrt(sum / static_cast<double>(change.triangles));
-  change.ratio_p1 = percentile_of_all(made.ratios, change.triangles, 1, ranks_);
-  change.ratio_p99 = percentile_of_all(made.ratios, change.triangles, 99, ranks_);
-  return change;
+  return size_change_of(
+      made.ratios, sum, [this](std::vector<std::int64_t>& counts) { ranks_.sum(counts); }, threads);
 }
 
 PrecisionLoss RankQuality::precision_loss(std::span<const Point2<double>> points, int exponent, int threads) const {
