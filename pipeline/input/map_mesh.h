@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
@@ -16,5 +17,9 @@ void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::files
 /// Whether x and y could well be longitude and latitude in degrees: a mesh of one of the formats that hold such ones,
 /// with coordinates in their range and an extent of more than 3.
 bool looks_geographic(const PlanarMesh& mesh, const MeshDocument& document);
+
+/// What the user should know of it then.
+inline constexpr std::string_view looks_geographic_note =
+    "x and y look like longitude and latitude in degrees: --geographic smooths shapes as they are on the sphere";
 
 }  // namespace trismooth

@@ -10,6 +10,7 @@
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/input/line_groups.h"
+#include "trismooth/pipeline/input/map_mesh.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/regions.h"
@@ -32,6 +33,9 @@ void take_sets(const PipelineOptions& options, Workers& workers, MeshShare& shar
   share.held_by_sets = std::move(sets.flags);
   share.point_sets = std::move(sets.sets);
   share.notes = std::move(sets.notes);
+  if (looks_geographic(mesh, document)) {
+    share.notes.insert(share.notes.begin(), std::string(looks_geographic_note));
+  }
   if (options.fixed_ids && options.fixed_ids_are_labels) {
     const std::vector<std::int32_t> vertices = read_vertex_labels(*options.fixed_ids, document);
     share.labelled.assign(vertices.begin(), vertices.end());

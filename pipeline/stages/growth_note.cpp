@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -78,22 +79,6 @@ class Fan {
   std::vector<std::size_t> triangles_;
 };
 
-/// The triangle of the smallest shape that has a free corner.
-std::optional<std::size_t> worst_with_free_corner(const TriangleView& view, std::span<const std::uint8_t> fixed) {
-  std::optional<std::size_t> worst;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t t = 0; t < view.triangles.size(); ++t) {
-    const auto [a, b, c] = corner_points(view, t);
-    const double quotient = shape_quotient(a, b, c);
-    if (quotient < smallest &&
-        std::ranges::any_of(view.triangles[t], [fixed](std::int32_t v) { return fixed[v] == 0; })) {
-      smallest = quotient;
-      worst = t;
-    }
-  }
-  return worst;
-}
-
 /// The bound of the vertex, in the local unit of `before`.
 double bound_of(const TriangleView& before, std::int32_t vertex, const QualityReport& report) {
   const Fan fan(before, vertex);
@@ -113,38 +98,63 @@ double bound_of(const TriangleView& before, std::int32_t vertex, const QualityRe
 
 }  // namespace
 
+bool may_have_growth_note(const SmoothingOptions& options, const QualityReport& before) {
+  return options.method == Method::mean_ratio && !options.aims_at_sizes() &&
+         options.mean_ratio.target == TargetShape::uniform && before[Metric::shape].mean > 0;
+}
+
+WorstTriangle worst_with_free_corner(const TriangleView& view, std::span<const std::uint8_t> fixed,
+                                     const std::function<bool(std::size_t)>& counts) {
+  WorstTriangle worst;
+  for (std::size_t t = 0; t < view.triangles.size(); ++t) {
+    const auto [a, b, c] = corner_points(view, t);
+    const double quotient = shape_quotient(a, b, c);
+    if (quotient < worst.quotient && counts(t) &&
+        std::ranges::any_of(view.triangles[t], [fixed](std::int32_t v) { return fixed[v] == 0; })) {
+      worst = {quotient, static_cast<std::int64_t>(t)};
+    }
+  }
+  return worst;
+}
+
+std::string growth_note(const TriangleView& before, const TriangleView& now, std::int32_t vertex,
+                        const QualityReport& report, double quotient, std::int64_t cell, std::int64_t number) {
+  const Fan fan(now, vertex);
+  const Point2<double> at = now.points[vertex];
+  const Point2<double> to = fan.middle();
+  const double shape_there = shape_constant * fan.smallest_quotient(to);
+  if (!(shape_there > shape_constant * fan.smallest_quotient(at))) {
+    return {};
+  }
+  // Shares are areas times squares of lengths.
+  const double bound = std::ldexp(bound_of(before, vertex, report), 4 * (before.exponent - now.exponent));
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    if (fan.share(i, to) > bound && fan.share(i, to) > fan.share(i, at)) {
+      return fmt::format(
+          "the growth bound of mean-ratio keeps the worst element that could get better, of shape {:.3g} in cell {}: "
+          "vertex {} may not go where its worst triangle would have {:.3g}, since another one would grow too large "
+          "for the error of a solution; finer edges nearby help, and --method smart has no such bound",
+          shape_constant * quotient, cell, number, shape_there);
+    }
+  }
+  return {};
+}
+
 void note_growth_bound(RunState& run, const TriangleView& before) {
-  const SmoothingOptions& options = run.smoothing;
-  if (options.method != Method::mean_ratio || options.aims_at_sizes() ||
-      options.mean_ratio.target != TargetShape::uniform || !(run.result.before[Metric::shape].mean > 0)) {
+  if (!may_have_growth_note(run.smoothing, run.result.before)) {
     return;
   }
   const TriangleView now = run.view();
-  const auto worst = worst_with_free_corner(now, run.found.fixed);
-  if (!worst) {
+  const WorstTriangle worst = worst_with_free_corner(now, run.found.fixed, [](std::size_t) { return true; });
+  if (worst.triangle < 0) {
     return;
   }
-  for (const std::int32_t v : now.triangles[*worst]) {
-    if (run.found.fixed[v] != 0) {
-      continue;
-    }
-    const Fan fan(now, v);
-    const Point2<double> at = now.points[v];
-    const Point2<double> to = fan.middle();
-    const double shape = shape_constant * fan.smallest_quotient(at);
-    const double shape_there = shape_constant * fan.smallest_quotient(to);
-    if (!(shape_there > shape)) {
-      continue;
-    }
-    // Shares are areas times squares of lengths.
-    const double bound = std::ldexp(bound_of(before, v, run.result.before), 4 * (before.exponent - now.exponent));
-    for (std::size_t i = 0; i < fan.size(); ++i) {
-      if (fan.share(i, to) > bound && fan.share(i, to) > fan.share(i, at)) {
-        run.note(fmt::format(
-            "the growth bound of mean-ratio keeps the worst element that could get better, of shape {:.3g} in cell {}: "
-            "vertex {} may not go where its worst triangle would have {:.3g}, since another one would grow too large "
-            "for the error of a solution; finer edges nearby help, and --method smart has no such bound",
-            shape, run.mesh.cells[*worst], v, shape_there));
+  for (const std::int32_t v : now.triangles[worst.triangle]) {
+    if (run.found.fixed[v] == 0) {
+      if (std::string said =
+              growth_note(before, now, v, run.result.before, worst.quotient, run.mesh.cells[worst.triangle], v);
+          !said.empty()) {
+        run.note(std::move(said));
         return;
       }
     }

@@ -1,30 +1,25 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
 #include "trismooth/pipeline/input/size_array.h"
-#include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/stages/run_context.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
 
-/// What the stages of one run hand to each other. Each stage is a function that fills its part of it.
-struct RunState {
-  explicit RunState(const PipelineOptions& run_options)
-      : options(run_options), smoothing(run_options.smoothing), workers(run_options.smoothing.threads) {}
+/// What the stages of a run hand to each other whose mesh is a document of this process. Each stage is a function that
+/// fills its part of it.
+struct RunState : RunContext {
+  explicit RunState(const PipelineOptions& run_options) : RunContext(run_options), smoothing(run_options.smoothing) {}
 
-  const PipelineOptions& options;
   SmoothingOptions smoothing;  ///< with the sizes of the file, where it is asked for them
-  Workers workers;
-  PipelineResult result;
   MeshDocument document;
   PlanarMesh mesh;
   LocalPoints local;  ///< mesh.points in their local frame: those of the input, after the smoothing of the result
@@ -41,9 +36,6 @@ struct RunState {
   void enter_frame();
   /// The triangles at `local`.
   TriangleView view() const { return {local.points, mesh.triangles, found.reversed, local.frame.exponent}; }
-  void note(std::string sentence) { result.notes.push_back(std::move(sentence)); }
-  /// Keeps the warning, and tells it at once to who wants to know.
-  void warn(std::string warning);
 };
 
 }  // namespace trismooth

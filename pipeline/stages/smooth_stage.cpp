@@ -95,7 +95,7 @@ SmoothingResult smooth_points(RunState& run) {
 
 }  // namespace
 
-void smooth_mesh(RunState& run) {
+SmoothingResult smooth_mesh(RunState& run) {
   if (run.options.annotate) {
     run.input_points = run.document.points;
     run.metrics_before = metrics_of_cells(run, "_before");
@@ -105,7 +105,7 @@ void smooth_mesh(RunState& run) {
   SmoothingResult smoothing = smooth_points(run);
   smoothing.backend_note = joined_notes(run.found.note, smoothing.backend_note);
   if (smoothing.stop_reason == StopReason::cancelled) {
-    throw Cancelled();
+    return smoothing;
   }
   follow_merged(run.mesh, before_merging, run.document.points);
   for (std::size_t v = 0; v < run.mesh.merged.size(); ++v) {
@@ -136,14 +136,7 @@ void smooth_mesh(RunState& run) {
       run.note(std::move(note));
     }
   }
-  PipelineTimings& timings = run.result.timings_ms;
-  timings.topology += smoothing.timings.prepare;
-  timings.transfer_in = smoothing.timings.transfer_in;
-  timings.untangle = smoothing.timings.untangle;
-  timings.smooth = smoothing.timings.smooth;
-  timings.transfer_out = smoothing.timings.transfer_out;
-  timings.guard = smoothing.timings.commit;
-  run.result.smoothing = std::move(smoothing);
+  return smoothing;
 }
 
 }  // namespace trismooth

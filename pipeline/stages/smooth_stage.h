@@ -3,8 +3,10 @@
 namespace trismooth {
 
 struct RunState;
+struct SmoothingResult;
 
-/// Smooths the mesh: the document's points are those of the result then. Throws Cancelled.
-void smooth_mesh(RunState& run);
+/// Smooths the mesh: the document's points are those of the result then, and so is what follows them. Nothing is where
+/// it is cancelled.
+SmoothingResult smooth_mesh(RunState& run);
 
 }  // namespace trismooth

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "trismooth/base/text/counted.h"
-#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
@@ -22,8 +21,8 @@
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/slide_lines.h"
 #include "trismooth/pipeline/stages/field_stage.h"
+#include "trismooth/pipeline/stages/mesh_summary.h"
 #include "trismooth/pipeline/stages/run_state.h"
-#include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 
@@ -263,25 +262,6 @@ MeshRings rings_of(RunState& run, const Constraints& constraints, std::unique_pt
   });
 }
 
-void summarise_mesh(RunState& run, const ReasonCounts& reasons) {
-  InputSummary& input = run.result.input;
-  input.triangles = static_cast<std::int64_t>(run.mesh.triangles.size());
-  input.other_cells = run.mesh.other_cells;
-  input.regions = run.regions.count();
-  input.region_arrays = run.regions.arrays;
-  run.result.region_names = run.regions.names;
-  input.region_array = list_text(run.regions.arrays, &RegionArray::name);
-  input.components = run.found.components;
-  input.free_vertices = reasons[0];
-  input.quadratic_triangles = std::ssize(run.mesh.quadratics);
-  input.middle_nodes = std::ssize(run.mesh.middles);
-  input.fixed_vertices = input.vertices - input.middle_nodes - input.merged_vertices - input.free_vertices;
-  input.reoriented_triangles = run.found.reoriented_triangles;
-  input.held = count_held(reasons, run.found.layers);
-  input.layers = run.found.layers;
-  run.result.topology = run.found.found_by;
-}
-
 }  // namespace
 
 void connect_mesh(RunState& run) {
@@ -299,8 +279,7 @@ void connect_mesh(RunState& run) {
   if (options.geographic) {
     lay_on_map(mesh, document, options.input);
   } else if (looks_geographic(mesh, document)) {
-    run.note(
-        "x and y look like longitude and latitude in degrees: --geographic smooths shapes as they are on the sphere");
+    run.note(std::string(looks_geographic_note));
   }
   merge_near_corners(run);
   take_out_copies(mesh, run.workers);
@@ -308,7 +287,6 @@ void connect_mesh(RunState& run) {
   run.enter_frame();
   find_sizes(run);
   run.regions = find_regions(document, mesh, options.region_arrays, run.sizes.of_cells ? run.sizes.array : "");
-  result.notes.insert(result.notes.begin(), run.regions.notes.begin(), run.regions.notes.end());
   const FixedArray named = find_fixed_array(document, options.fixed_array);
   HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets, run.regions.of_triangle,
                                  options.slide.along != Slide::off);
@@ -323,9 +301,6 @@ void connect_mesh(RunState& run) {
   }
   std::vector<std::int32_t> ids = ids_of_file(run);
   input.fixed_ids_vertices = count_different(ids);
-  if (options.fixed_ids && ids.empty()) {
-    run.warn(options.fixed_ids->string() + ": names no vertices, so it holds none");
-  }
   require_vertices(options.fixed_vertices, input.vertices);
   std::ranges::copy(options.fixed_vertices, std::back_inserter(ids));
   if (!mesh.quadratics.empty()) {
@@ -351,13 +326,18 @@ void connect_mesh(RunState& run) {
     // (On the way it may have become a tilted one.)
     run.found.slidable = mesh.plane.aligned ? std::move(run.found.slidable) : Slidable{};
   }
-  const ReasonCounts reasons = count_vertices(run);
-  std::ranges::move(notes_of_irregular_vertices(reasons), std::back_inserter(result.notes));
-  if (std::string note = note_of_layers(run.found.layers); !note.empty()) {
-    run.note(std::move(note));
-  }
-  summarise_mesh(run, reasons);
-  if (input.free_vertices == 0 && input.triangles > 1 && input.components == input.triangles) {
+  input.quadratic_triangles = std::ssize(mesh.quadratics);
+  input.middle_nodes = std::ssize(mesh.middles);
+  result.topology = run.found.found_by;
+  summarise_mesh(run, {.vertices = input.vertices,
+                       .triangles = std::ssize(mesh.triangles),
+                       .other_cells = mesh.other_cells,
+                       .components = run.found.components,
+                       .reoriented_triangles = run.found.reoriented_triangles,
+                       .reasons = count_vertices(run),
+                       .layers = run.found.layers,
+                       .regions = run.regions});
+  if (are_apart(input)) {
     run.note(describe_apart_triangles(mesh.points, mesh.triangles));
   }
   input.fixed_array = named.array;
@@ -365,27 +345,7 @@ void connect_mesh(RunState& run) {
   input.point_sets = std::move(sets.sets);
   input.cell_sets = summarise_cell_sets(document);
   input.line_groups = find_line_groups(document);
-  input.fixed_ids = options.fixed_ids.value_or(std::filesystem::path{});
   find_fields(run);
-}
-
-std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts) {
-  std::int64_t non_manifold = 0;
-  std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
-  for (std::size_t reasons = 0; reasons < counts.size(); ++reasons) {
-    const bool on_edge = (reasons & hold::non_manifold) != 0;
-    non_manifold += on_edge ? counts[reasons] : 0;
-    bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? counts[reasons] : 0;
-  }
-  std::vector<std::string> notes;
-  const auto note = [&](std::int64_t count, const std::string& where) {
-    if (count > 0) {
-      notes.push_back(counted(count, "vertex ", "vertices ") + where + ": held fixed");
-    }
-  };
-  note(non_manifold, "on edges of three triangles or more");
-  note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
-  return notes;
 }
 
 }  // namespace trismooth

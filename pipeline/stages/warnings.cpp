@@ -9,39 +9,26 @@
 #include <fmt/ranges.h>
 
 #include "trismooth/base/text/counted.h"
-#include "trismooth/pipeline/stages/run_state.h"
-#include "trismooth/quality/coarse_boundary.h"
-#include "trismooth/quality/precision_loss.h"
+#include "trismooth/pipeline/stages/run_context.h"
+#include "trismooth/pipeline/stages/staged_mesh.h"
 
 namespace trismooth {
 
 namespace {
 
-void warn_of_precision(RunState& run) {
+void warn_of_precision(StagedMesh& mesh) {
+  RunContext& run = mesh.context();
   const SmoothingOptions& options = run.options.smoothing;
   if (options.precision != Precision::single_precision) {
     return;
   }
-  const PrecisionLoss loss = single_precision_loss(run.view(), options.threads);
-  if (loss.any()) {
-    run.warn(warning_of(loss, options));
+  if (const PrecisionLoss loss = mesh.precision_loss(); loss.any()) {
+    run.warn(describe(loss) + (options.guard ? "; the guard checks the result in double" : "") +
+             "; --precision double smooths it as it is");
   }
 }
 
-void warn_of_options_without_effect(RunState& run) {
-  if (std::string warning = warning_of_options_without_effect(run.options); !warning.empty()) {
-    run.warn(std::move(warning));
-  }
-}
-
-void warn_of_boundary(RunState& run) {
-  if (const CoarseBoundary coarse = find_coarse_boundary(run.view(), run.found.fixed, run.options.smoothing.threads);
-      coarse.any()) {
-    run.warn(warning_of(coarse));
-  }
-}
-
-void warn_of_projection(RunState& run) {
+void warn_of_projection(RunContext& run) {
   const QualityReport& before = run.result.before;
   if (run.options.project && before.inverted + before.degenerate > 0) {
     run.warn(
@@ -51,16 +38,19 @@ void warn_of_projection(RunState& run) {
   }
 }
 
+/// What is smoothed though it is flat in one direction, with the way out; empty where there is nothing.
+std::string warning_of_layers(const LayersResult& layers) {
+  return layers.left == 0
+             ? std::string()
+             : fmt::format(
+                   "{} where triangles are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
+                   "all others; if that is on purpose, --layers keep holds {}, and --method mean-ratio "
+                   "--target input-shape keeps the shapes",
+                   counted(layers.left, "vertex is", "vertices are"), layers.left_aspect,
+                   layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
+}
+
 }  // namespace
-
-std::string warning_of(const PrecisionLoss& loss, const SmoothingOptions& options) {
-  return describe(loss) + (options.guard ? "; the guard checks the result in double" : "") +
-         "; --precision double smooths it as it is";
-}
-
-std::string warning_of(const CoarseBoundary& coarse) {
-  return describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)";
-}
 
 std::string warning_of_options_without_effect(const PipelineOptions& options) {
   const MeanRatioOptions& given = options.smoothing.mean_ratio;
@@ -108,17 +98,6 @@ std::string note_of_layers(const LayersResult& layers) {
                          held == 1 ? "it" : "them");
 }
 
-std::string warning_of_layers(const LayersResult& layers) {
-  return layers.left == 0
-             ? std::string()
-             : fmt::format(
-                   "{} where triangles are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
-                   "all others; if that is on purpose, --layers keep holds {}, and --method mean-ratio "
-                   "--target input-shape keeps the shapes",
-                   counted(layers.left, "vertex is", "vertices are"), layers.left_aspect,
-                   layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
-}
-
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
   std::vector<std::string> warnings;
   if (result.after && result.after->inverted > 0) {
@@ -158,11 +137,16 @@ std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& 
       may_slide_together ? "--slide-coincident has those in the same place slide together, " : "");
 }
 
-void warn_before_smoothing(RunState& run) {
-  warn_of_precision(run);
-  warn_of_options_without_effect(run);
-  warn_of_boundary(run);
-  if (std::string warning = warning_of_layers(run.found.layers); !warning.empty()) {
+void warn_before_smoothing(StagedMesh& mesh) {
+  RunContext& run = mesh.context();
+  warn_of_precision(mesh);
+  if (std::string warning = warning_of_options_without_effect(run.options); !warning.empty()) {
+    run.warn(std::move(warning));
+  }
+  if (const CoarseBoundary coarse = mesh.coarse_boundary(); coarse.any()) {
+    run.warn(describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)");
+  }
+  if (std::string warning = warning_of_layers(run.result.input.layers); !warning.empty()) {
     run.warn(std::move(warning));
   }
   warn_of_projection(run);
@@ -174,7 +158,7 @@ std::string note_of_dropped_annotations(std::span<const std::string> names) {
       fmt::join(names, ", "));
 }
 
-void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing) {
+void warn_of_folds_put_back(RunContext& run, const SmoothingResult& smoothing) {
   const auto& untangling = smoothing.untangling;
   if (untangling && untangling->inverted_after > untangling->inverted_untangled && smoothing.reverted_vertices > 0) {
     run.warn(
@@ -184,7 +168,7 @@ void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing) {
   }
 }
 
-void warn_of_sizes_out_of_reach(RunState& run, const SmoothingResult& smoothing) {
+void warn_of_sizes_out_of_reach(RunContext& run, const SmoothingResult& smoothing) {
   constexpr double far_off = 1;  // of the logarithm of areas: by a factor of e, in the root of the mean square
   const auto& fit = run.result.size_fit_after;
   if (fit && smoothing.moved_vertices == 0 && run.result.input.free_vertices > 0 && fit->rms_log_ratio > far_off) {

@@ -2,36 +2,28 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace trismooth {
 
-struct CoarseBoundary;
+class StagedMesh;
 struct LayersResult;
 struct PipelineOptions;
 struct PipelineResult;
-struct PrecisionLoss;
-struct RunState;
+struct RunContext;
 struct Sliding;
 struct SlidingResult;
-struct SmoothingOptions;
 struct SmoothingResult;
 
 /// What the user should know before the smoothing: what single precision loses, options that the method takes no notice
-/// of, a boundary that is too coarse.
-void warn_before_smoothing(RunState& run);
+/// of, a boundary that is too coarse, layers that are smoothed as all else. Collective where the mesh is in pieces.
+void warn_before_smoothing(StagedMesh& mesh);
 
-/// The sentences of these warnings. There is something lost, and a boundary that is too coarse.
-std::string warning_of(const PrecisionLoss& loss, const SmoothingOptions& options);
-std::string warning_of(const CoarseBoundary& coarse);
 /// Empty where the method, and the way of sliding, take notice of all options.
 std::string warning_of_options_without_effect(const PipelineOptions& options);
 
-/// What was held since it is flat on purpose, and what is smoothed though it is flat in one direction, with the way
-/// out; empty where there is nothing.
+/// What was held since it is flat on purpose, with the way out; empty where there is nothing.
 std::string note_of_layers(const LayersResult& layers);
-std::string warning_of_layers(const LayersResult& layers);
 
 /// What is to be said of a result in which triangles are inverted, or triangles of six nodes not valid, with the way
 /// out.
@@ -43,8 +35,9 @@ std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& 
 /// What to say where annotations of these names are in the output, made by an earlier run.
 std::string note_of_dropped_annotations(std::span<const std::string> names);
 
-/// And after it: folds that the never-worse check put back, and sizes so far from those of the mesh that nothing moved.
-void warn_of_folds_put_back(RunState& run, const SmoothingResult& smoothing);
-void warn_of_sizes_out_of_reach(RunState& run, const SmoothingResult& smoothing);
+/// After the smoothing: folds that the never-worse check put back, and sizes so far from those of the mesh that nothing
+/// moved.
+void warn_of_folds_put_back(RunContext& run, const SmoothingResult& smoothing);
+void warn_of_sizes_out_of_reach(RunContext& run, const SmoothingResult& smoothing);
 
 }  // namespace trismooth

@@ -11,10 +11,8 @@
 
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/pipeline/coordinates_hash.h"
-#include "trismooth/pipeline/stages/check_stage.h"
-#include "trismooth/pipeline/stages/run_state.h"
-#include "trismooth/pipeline/stages/smooth_stage.h"
-#include "trismooth/pipeline/stages/topology_stage.h"
+#include "trismooth/pipeline/stages/document_mesh.h"
+#include "trismooth/pipeline/stages/staged_run.h"
 
 #include "catch.h"
 #include "support/naive_smoothing.h"
@@ -71,13 +69,11 @@ struct Smoothed {
 Smoothed smoothed(const MeshDocument& document, PipelineOptions options = {}) {
   options.input = "mesh.vtu";
   options.smoothing.threads = options.smoothing.threads == 0 ? 1 : options.smoothing.threads;
-  trismooth::RunState run(options);
-  run.document = document;
-  run.result.input.vertices = static_cast<std::int64_t>(document.point_count());
-  trismooth::connect_mesh(run);
-  trismooth::check_before(run);
-  trismooth::smooth_mesh(run);
-  trismooth::check_after(run);
+  options.output = "smoothed.vtu";
+  trismooth::DocumentMesh mesh(options);
+  mesh.take(document);
+  trismooth::StagedRun(mesh).check_and_smooth();
+  trismooth::RunState& run = mesh.state();
   return {document, std::move(run.document), std::move(run.result)};
 }
 

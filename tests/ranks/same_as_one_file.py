@@ -131,6 +131,22 @@ class SameAsOneFile(ranks_tool.RanksTest):
                     self.assertEqual(without_run(report), without_run(whole))
                     self.assertEqual(self.notes_of(ranks, "smooth", "big.pvtu", "out.pvtu"), notes)
 
+    def test_what_is_said_of_the_result_and_of_strange_meshes(self):
+        """The growth bound of mean-ratio, degrees, triangles that share no vertex: as one process says it."""
+        mesh = self.random_mesh(200)
+        self.write("degrees.14", f"grid\n{len(mesh.cells)} {len(mesh.points)}\n" +
+                   "".join(f"{v + 1} {4 * x - 75!r} {4 * y + 35!r} 10\n" for v, (x, y, _) in enumerate(mesh.points)) +
+                   "".join(f"{c + 1} 3 {' '.join(str(v + 1) for v in cell)}\n" for c, cell in enumerate(mesh.cells)) +
+                   "0\n0\n0\n0\n")
+        self.write("apart.off", "OFF 6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n")
+        for name, options, told in (("random.off", ["--method", "mean-ratio"], "the growth bound of mean-ratio keeps"),
+                                    ("degrees.14", [], "look like longitude and latitude"),
+                                    ("apart.off", [], "--merge")):
+            said = [note for note in self.notes_of(0, "smooth", name, "smooth.vtu", *options) if told in note]
+            self.assertEqual(len(said), 1, name)
+            with self.subTest(name):
+                self.assertIn(said[0], self.notes_of(3, "smooth", name, "out.pvtu", *options))
+
     def test_marked_vertices(self):
         """Those of a file that rank 0 reads, and of pieces, are held as in one file."""
         mesh = self.random_mesh(600)

@@ -250,7 +250,7 @@ class RankRegionFinder {
   }
 
   /// (What is thrown for the names is thrown on all ranks.)
-  RankRegions find(std::span<const std::string> names) {
+  Regions find(std::span<const std::string> names) {
     std::vector<TriangleValues> arrays;
     std::ranges::transform(candidates_, std::back_inserter(arrays),
                            [this](const PieceArray* array) { return asked_of(*array); });
@@ -332,10 +332,10 @@ class RankRegionFinder {
     return {{}, 2};
   }
 
-  RankRegions take() {
+  Regions take() {
     regions_.names = tell_apart(std::move(names_));
     if (!regions_.arrays.empty()) {
-      regions_.of_overlap = overlap_triangles_.of_overlap<std::int32_t>(of_mesh_);
+      regions_.of_triangle = overlap_triangles_.of_overlap<std::int32_t>(of_mesh_);
     }
     return std::move(regions_);
   }
@@ -352,11 +352,7 @@ class RankRegionFinder {
       }
     }
     make_unique(own);
-    std::vector<std::uint64_t> all;
-    for (const auto& list :
-         ranks_.exchanged(mpi::ByRank<std::uint64_t>(static_cast<std::size_t>(ranks_.size()), own))) {
-      all.insert(all.end(), list.begin(), list.end());
-    }
+    std::vector<std::uint64_t> all = ranks_.of_all(own);
     make_unique(all);
     return all;
   }
@@ -384,15 +380,14 @@ class RankRegionFinder {
   std::vector<const PieceArray*> candidates_;
   std::optional<RankValues> last_;       ///< the values of the array that was asked for last
   const PieceArray* of_last_ = nullptr;  ///< that one
-  RankRegions regions_;
+  Regions regions_;
   std::vector<std::int32_t> of_mesh_;  ///< the region of each triangle of the RankMesh
   std::vector<RegionName> names_;
 };
 
 }  // namespace
 
-RankRegions find_rank_regions(const PieceFiles& files, const RankTopology& topology,
-                              std::span<const std::string> names) {
+Regions find_rank_regions(const PieceFiles& files, const RankTopology& topology, std::span<const std::string> names) {
   return RankRegionFinder(files, topology).find(names);
 }
 

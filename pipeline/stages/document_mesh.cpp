@@ -1,0 +1,114 @@
+#include "trismooth/pipeline/stages/document_mesh.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/machine/peak_memory.h"
+#include "trismooth/mesh_io/mesh_file.h"
+#include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/stages/smooth_stage.h"
+#include "trismooth/pipeline/stages/topology_stage.h"
+#include "trismooth/pipeline/stages/write_stage.h"
+#include "trismooth/quality/size_ratio.h"
+
+namespace trismooth {
+
+namespace {
+
+QualityReport report_of(const RunState& run) {
+  QualityReport report = quality_report(run.view(), {.threads = run.options.smoothing.threads});
+  if (run.options.size_ratio) {
+    report.size_ratio = size_ratio_summary(run.view(), run.options.smoothing.threads);
+  }
+  report.degenerate += run.mesh.repeating_triangles;
+  for (WorstElement& element : report.worst) {
+    const Triangle& corners = run.mesh.triangles[static_cast<std::size_t>(element.triangle)];
+    if (run.regions.count() > 1) {
+      element.region = run.regions.of_triangle[static_cast<std::size_t>(element.triangle)];
+    }
+    element.all_fixed = std::ranges::all_of(corners, [&](std::int32_t v) { return run.found.fixed[v] != 0; });
+    element.triangle = run.mesh.cells[static_cast<std::size_t>(element.triangle)];
+    element.centroid = run.local.frame.leave(element.centroid);
+    if (run.mesh.map) {
+      element.centroid = run.mesh.map->degrees(element.centroid);
+    }
+  }
+  return report;
+}
+
+std::vector<RegionQuality> quality_of_regions(const RunState& run) {
+  const std::int32_t count = run.regions.count();
+  return count < 2 ? std::vector<RegionQuality>{}
+                   : region_quality(run.view(), run.regions.of_triangle, count, run.options.smoothing.threads);
+}
+
+std::optional<QuadraticQuality> quality_of_quadratics(const RunState& run) {
+  return run.mesh.quadratics.empty()
+             ? std::nullopt
+             : std::optional(quadratic_quality(run.view(), run.mesh.quadratics, run.options.smoothing.threads));
+}
+
+}  // namespace
+
+std::int64_t DocumentMesh::peak_memory() const {
+  return peak_memory_bytes();
+}
+
+void DocumentMesh::read() {
+  const PipelineOptions& options = run_.options;
+  take(read_mesh(options.input, FileOptions{options.smoothing.threads, options.format}));
+  // What the reader says of the file is said of what another format loses.
+  const FileFormat format = run_.document.format;
+  const bool converts = options.output && output_format(*options.output, format, options.format) != format;
+  std::ranges::copy(run_.document.notes, std::back_inserter(converts ? run_.result.losses : run_.result.notes));
+}
+
+void DocumentMesh::take(MeshDocument document) {
+  run_.document = std::move(document);
+  run_.result.losses = run_.document.losses;
+  run_.result.input.path = shown_input(run_.options.input);
+  run_.result.input.format = run_.document.format;
+  run_.result.input.vertices = static_cast<std::int64_t>(run_.document.point_count());
+}
+
+void DocumentMesh::connect() {
+  connect_mesh(run_);
+}
+
+MeshQuality DocumentMesh::quality() {
+  return {report_of(run_), quality_of_regions(run_), quality_of_quadratics(run_)};
+}
+
+PrecisionLoss DocumentMesh::precision_loss() {
+  return single_precision_loss(run_.view(), run_.options.smoothing.threads);
+}
+
+CoarseBoundary DocumentMesh::coarse_boundary() {
+  return find_coarse_boundary(run_.view(), run_.found.fixed, run_.options.smoothing.threads);
+}
+
+SmoothingResult DocumentMesh::smooth() {
+  SmoothingResult smoothing = smooth_mesh(run_);
+  stop_if_cancelled(smoothing);
+  return smoothing;
+}
+
+void DocumentMesh::write(const std::function<const PipelineResult&()>& completed) {
+  const PipelineOptions& options = run_.options;
+  WrittenAside mesh = write_output(run_, *options.written(), !options.output || options.annotate);
+  const PipelineResult& result = completed();
+  if (options.beside.prepare) {
+    options.beside.prepare(result);
+  }
+  mesh.send();
+  if (options.beside.place) {
+    options.beside.place();
+  }
+  mesh.commit();
+}
+
+}  // namespace trismooth

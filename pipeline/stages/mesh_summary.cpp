@@ -1,0 +1,74 @@
+#include "trismooth/pipeline/stages/mesh_summary.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trismooth/base/hold.h"
+#include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/pipeline/input/regions.h"
+#include "trismooth/pipeline/stages/run_context.h"
+#include "trismooth/pipeline/stages/warnings.h"
+
+namespace trismooth {
+
+namespace {
+
+/// What the user should know of vertices that are held where triangles meet irregularly, one sentence each.
+std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts) {
+  std::int64_t non_manifold = 0;
+  std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
+  for (std::size_t reasons = 0; reasons < counts.size(); ++reasons) {
+    const bool on_edge = (reasons & hold::non_manifold) != 0;
+    non_manifold += on_edge ? counts[reasons] : 0;
+    bow_ties += !on_edge && (reasons & hold::bow_tie) != 0 ? counts[reasons] : 0;
+  }
+  std::vector<std::string> notes;
+  const auto note = [&](std::int64_t count, const std::string& where) {
+    if (count > 0) {
+      notes.push_back(counted(count, "vertex ", "vertices ") + where + ": held fixed");
+    }
+  };
+  note(non_manifold, "on edges of three triangles or more");
+  note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
+  return notes;
+}
+
+}  // namespace
+
+void summarise_mesh(RunContext& run, const MeshFacts& facts) {
+  PipelineResult& result = run.result;
+  InputSummary& input = result.input;
+  input.vertices = facts.vertices;
+  input.triangles = facts.triangles;
+  input.other_cells = facts.other_cells;
+  input.regions = facts.regions.count();
+  input.region_arrays = facts.regions.arrays;
+  input.region_array = list_text(facts.regions.arrays, &RegionArray::name);
+  result.region_names = facts.regions.names;
+  input.components = static_cast<std::int32_t>(facts.components);
+  input.reoriented_triangles = facts.reoriented_triangles;
+  input.free_vertices = facts.reasons[0];
+  input.fixed_vertices = input.vertices - input.middle_nodes - input.merged_vertices - input.free_vertices;
+  input.held = count_held(facts.reasons, facts.layers);
+  input.layers = facts.layers;
+  input.fixed_ids = run.options.fixed_ids.value_or(std::filesystem::path{});
+  result.notes.insert(result.notes.begin(), facts.regions.notes.begin(), facts.regions.notes.end());
+  std::ranges::move(notes_of_irregular_vertices(facts.reasons), std::back_inserter(result.notes));
+  if (std::string note = note_of_layers(facts.layers); !note.empty()) {
+    run.note(std::move(note));
+  }
+  if (run.options.fixed_ids && input.fixed_ids_vertices == 0) {
+    run.warn(run.options.fixed_ids->string() + ": names no vertices, so it holds none");
+  }
+}
+
+bool are_apart(const InputSummary& input) {
+  return input.free_vertices == 0 && input.triangles > 1 && input.components == input.triangles;
+}
+
+}  // namespace trismooth

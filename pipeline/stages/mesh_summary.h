@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+#include "trismooth/pipeline/held_vertices.h"
+#include "trismooth/smoothing/result.h"
+
+namespace trismooth {
+
+struct InputSummary;
+struct Regions;
+struct RunContext;
+
+/// What is found of a mesh when it is connected, of the whole of it.
+struct MeshFacts {
+  std::int64_t vertices = 0;
+  std::int64_t triangles = 0;
+  std::int64_t other_cells = 0;
+  std::int64_t components = 0;
+  std::int64_t reoriented_triangles = 0;
+  ReasonCounts reasons{};      ///< the vertices by what holds them, but for those that follow others
+  const LayersResult& layers;  ///< what was held of them, and what was not
+  const Regions& regions;
+};
+
+/// Puts them into the result, with what is to be said of regions, of vertices where triangles meet irregularly, of
+/// layers and of a file of vertices to hold that names none; how many that names is in the result.
+void summarise_mesh(RunContext& run, const MeshFacts& facts);
+
+/// Whether no two triangles share a side, so that nothing is free: something has gone wrong where the mesh was made.
+bool are_apart(const InputSummary& input);
+
+}  // namespace trismooth
