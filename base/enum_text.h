@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -9,7 +10,8 @@
 namespace trismooth {
 
 /// The text forms of an enumeration, in one place. It is specialised beside each enumeration with a member `what` (the
-/// noun in messages) and a member `texts` (pairs of value and text).
+/// noun in messages) and a member `texts` (pairs of value and text). It may have a member `meanings`: what each of them
+/// stands for, for help.
 template <class Enum>
 struct EnumText;
 
@@ -27,12 +29,33 @@ requires requires {
   return "?";
 }
 
+/// Every value of the enumeration.
+template <class Enum>
+[[nodiscard]] constexpr auto values_of() {
+  std::array<Enum, EnumText<Enum>::texts.size()> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = EnumText<Enum>::texts[i].first;
+  }
+  return values;
+}
+
 /// Every text of the enumeration: "a, b".
 template <class Enum>
 [[nodiscard]] std::string valid_texts() {
   std::string list;
   for (const auto& [value, text] : EnumText<Enum>::texts) {
     list.append(list.empty() ? "" : ", ").append(text);
+  }
+  return list;
+}
+
+/// Every text of the enumeration with its meaning: "a: before the sweep; b: in the sweep".
+template <class Enum>
+[[nodiscard]] std::string explained_texts() {
+  std::string list;
+  for (std::size_t i = 0; i < EnumText<Enum>::texts.size(); ++i) {
+    list.append(list.empty() ? "" : "; ").append(EnumText<Enum>::texts[i].second);
+    list.append(": ").append(EnumText<Enum>::meanings[i]);
   }
   return list;
 }

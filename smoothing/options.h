@@ -8,19 +8,12 @@
 #include "trismooth/base/array_view.h"
 #include "trismooth/base/enum_text.h"
 #include "trismooth/base/storage.h"
+#include "trismooth/smoothing/method.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth {
 
 class Backend;
-
-/// Where a vertex is moved to, and whether.
-enum class Method : std::uint8_t {
-  smart,       ///< to the mean of its neighbours, if the worst of its triangles gets better (the paper)
-  laplacian,   ///< to the mean of its neighbours
-  weighted,    ///< towards the mean of its neighbours weighted by edge length, as smart does
-  mean_ratio,  ///< where an energy of its triangles' shapes and sizes gets smaller, by Newton's method
-};
 
 /// The paper's iteration forms.
 enum class Form : std::uint8_t {
@@ -99,14 +92,6 @@ enum class Progress : std::uint8_t {
   stop,     ///< end here: StopReason::cancelled
 };
 
-template <>
-struct EnumText<Method> {
-  static constexpr std::string_view what = "method";
-  static constexpr std::array<std::pair<Method, std::string_view>, 4> texts{{{Method::smart, "smart"},
-                                                                             {Method::laplacian, "laplacian"},
-                                                                             {Method::weighted, "weighted"},
-                                                                             {Method::mean_ratio, "mean-ratio"}}};
-};
 template <>
 struct EnumText<Form> {
   static constexpr std::string_view what = "form";

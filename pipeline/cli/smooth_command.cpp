@@ -39,12 +39,7 @@ struct SmoothSettings {
 void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
   SmoothingOptions& options = settings.run.pipeline.smoothing;
   const char* const group = "Smoothing";
-  add_enum_option(
-      command, "--method", options.method,
-      "smart: to the mean of the neighbours, where the worst triangle around gets better; laplacian: "
-      "always; weighted: towards the mean by edge length, as smart; mean-ratio: where an energy of all triangles "
-      "around is smaller, for the best elements")
-      ->group(group);
+  add_enum_option(command, "--method", options.method, explained_texts<Method>())->group(group);
   add_enum_option(command, "--form", options.form,
                   "a: all moves from the positions before the sweep; b: moves see the neighbours already moved, which "
                   "needs fewer sweeps")

@@ -123,7 +123,7 @@ class Maker:
 
     def options(self) -> dict:
         choices = {
-            "method": ["smart", "laplacian", "weighted", "mean-ratio"],
+            "method": [*trismooth.METHODS],
             "form": ["a", "b"],
             "backend": ["auto", "cpu"],
             "layout": ["aos"],

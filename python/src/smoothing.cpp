@@ -210,12 +210,21 @@ class HostPlan {
   Turns turns_;
 };
 
+std::vector<std::string> methods() {
+  std::vector<std::string> names;
+  for (const auto& [method, name] : EnumText<Method>::texts) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 void bind_smoothing(nb::module_& module) {
   module.def("smooth", &smooth_arrays, "points"_a, "triangles"_a, "out"_a, "constraints"_a, "quality"_a,
              "progress"_a.none(), "accept"_a, "options"_a);
   module.def("option_names", &option_names);
+  module.def("methods", &methods);
   nb::class_<HostPlan>(module, "HostPlan")
       .def(nb::init<nb::handle, std::size_t, const nb::dict&, const nb::dict&>(), "triangles"_a, "vertex_count"_a,
            "constraints"_a, "options"_a)

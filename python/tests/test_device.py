@@ -99,7 +99,7 @@ def test_arrays_come_back_as_they_went_in_with_the_bits_of_the_cpu(library, dtyp
 
 OPTIONS = [
     {"method": method, "form": form, "precision": precision}
-    for method in ("smart", "laplacian", "weighted", "mean-ratio")
+    for method in trismooth.METHODS
     for form in ("a", "b")
     for precision in ("double", "single")
 ] + [{"guard": False}, {"untangle": True}, {"max_sweeps": 3}, {"tolerance": 1e-2}, {"target_quality": 0.3}, {"power": 1},

@@ -19,7 +19,7 @@ def layered(columns=40, heights=(0.02, 0.03, 0.045, 0.07, 0.1, 0.15), above=6):
     return points, np.concatenate([lower, upper]), columns * (len(heights) + 1)
 
 
-@pytest.mark.parametrize("method", ["smart", "laplacian", "weighted", "mean-ratio"])
+@pytest.mark.parametrize("method", trismooth.METHODS)
 def test_a_boundary_layer_keeps_its_heights_and_a_warning_says_so(method):
     points, triangles, of_layer = layered()
     with pytest.warns(trismooth.MeshWarning, match="flat on purpose.*layers='smooth' moves them"):

@@ -28,7 +28,7 @@ def part_of(points, triangles):
     return ((centres > 3) & (centres < 7)).all(axis=1)
 
 
-@pytest.mark.parametrize("method", ["smart", "mean-ratio", "laplacian", "weighted"])
+@pytest.mark.parametrize("method", trismooth.METHODS)
 def test_each_triangle_counts_and_is_smoothed_once(method):
     points, triangles = grid()
     once = trismooth.smooth(points, triangles, method=method)

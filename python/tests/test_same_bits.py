@@ -14,7 +14,7 @@ pytest.importorskip("xxhash")
 
 COMBINATIONS = [
     {"method": method, "form": form, "precision": precision, "guard": guard}
-    for method in ("smart", "laplacian", "weighted", "mean-ratio")
+    for method in trismooth.METHODS
     for form in ("a", "b")
     for precision in ("double", "single")
     for guard in (True, False)

@@ -22,10 +22,11 @@ from ._notes import MeshWarning
 from ._plan import Plan
 from ._quality import METRICS, Quality, quality
 from ._result import NotComputed, Result
-from ._smooth import smooth
+from ._smooth import METHODS, smooth
 from ._support import build_info
 
 __all__ = [
+    "METHODS",
     "METRICS",
     "Cancelled",
     "DeviceError",

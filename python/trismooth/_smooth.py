@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Dict, List, Optional, Sequence
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from . import _arrays, _core
 from ._constraints import Constraints
@@ -12,6 +12,9 @@ from ._repeats import find_repeats
 from ._result import Result, notes_of
 
 Progress = Callable[[SweepRecord], Any]
+
+# The names of all methods.
+METHODS: Tuple[str, ...] = tuple(_core.methods())
 
 
 def smooth(
@@ -74,9 +77,9 @@ def smooth(
         A line ends where the label changes. Labels of any type, texts as well.
     links : array of integers, shape (L, 2), optional
         Pairs of vertices that slide as one, as those of two sides that are periodic.
-    method : {"smart", "mean-ratio", "laplacian", "weighted"}
+    method : str, one of ``trismooth.METHODS``
         How vertices are moved. "smart" is the Smart Laplacian of the paper; "mean-ratio" gives the best elements and
-        untangles inverted ones first.
+        untangles inverted ones first. docs/method.md has all.
     backend : {"auto", "cpu", "cuda"}
         Who makes the sweeps. "auto": a GPU for large meshes, where the build and the machine have one.
     out : array, optional

@@ -184,4 +184,21 @@ class MeanRatio {
   MeanRatioStep<T> step_;
 };
 
+template <>
+struct UpdateOf<Method::mean_ratio> {
+  template <class MethodInUse, class Function>
+  static decltype(auto) visit(const MethodInUse& in_use, Function&& function) {
+    return in_use.targets.edges != nullptr ? visit_shaped<true>(in_use.targets, in_use.step, function)
+                                           : visit_shaped<false>(in_use.targets, in_use.step, function);
+  }
+
+ private:
+  template <bool shaped, class T, class Function>
+  static decltype(auto) visit_shaped(const MeanRatioTargets<T>& targets, const MeanRatioStep<T>& step,
+                                     const Function& function) {
+    return step.is_last ? function(MeanRatio<T, shaped, true>(targets, step))
+                        : function(MeanRatio<T, shaped, false>(targets, step));
+  }
+};
+
 }  // namespace trismooth

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <utility>
 
-#include "trismooth/smoothing/methods/laplacian.h"
-#include "trismooth/smoothing/methods/mean_ratio.h"
-#include "trismooth/smoothing/methods/smart_laplacian.h"
-#include "trismooth/smoothing/methods/weighted_laplacian.h"
-#include "trismooth/smoothing/options.h"
+#include "trismooth/all_methods.h"
+#include "trismooth/base/enum_text.h"
+#include "trismooth/smoothing/method.h"
+#include "trismooth/smoothing/methods/mean_ratio_targets.h"
+#include "trismooth/smoothing/methods/one_ring_update.h"
 
 namespace trismooth {
 
@@ -18,31 +19,16 @@ struct MethodInUse {
   MeanRatioStep<T> step{};
 };
 
-/// visit_method() for mean-ratio.
-template <class T, class Function>
-decltype(auto) visit_mean_ratio(const MeanRatioTargets<T>& targets, const MeanRatioStep<T>& step, Function&& function) {
-  if (targets.edges != nullptr) {
-    return step.is_last ? function(MeanRatio<T, true, true>(targets, step))
-                        : function(MeanRatio<T, true, false>(targets, step));
-  }
-  return step.is_last ? function(MeanRatio<T, false, true>(targets, step))
-                      : function(MeanRatio<T, false, false>(targets, step));
-}
-
-/// Calls `function` with the method's one-ring update.
-template <class T, class Function>
+/// Calls `function` with the method's one-ring update. `first`: the methods from this one on.
+template <std::size_t first = 0, class T, class Function>
 decltype(auto) visit_method(const MethodInUse<T>& in_use, Function&& function) {
-  switch (in_use.method) {
-    case Method::laplacian:
-      return std::forward<Function>(function)(Laplacian{});
-    case Method::weighted:
-      return std::forward<Function>(function)(WeightedLaplacian{});
-    case Method::mean_ratio:
-      return visit_mean_ratio(in_use.targets, in_use.step, std::forward<Function>(function));
-    case Method::smart:
-      break;
+  constexpr auto methods = values_of<Method>();
+  if constexpr (first + 1 < methods.size()) {
+    if (in_use.method != methods[first]) {
+      return visit_method<first + 1>(in_use, std::forward<Function>(function));
+    }
   }
-  return std::forward<Function>(function)(SmartLaplacian{});
+  return UpdateOf<methods[first]>::visit(in_use, std::forward<Function>(function));
 }
 
 }  // namespace trismooth

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/smoothing/method.h"
 
 namespace trismooth {
 
@@ -11,8 +12,8 @@ namespace trismooth {
 ///     template <class T, class Ring> Move<T> update(Point2<T> position, const Ring& ring);
 ///
 /// where ring.size() is the number of neighbours and ring[i] the position of neighbour i, counter-clockwise. Every
-/// backend calls exactly this function; a new method is one new header and an entry in methods.h. A method that uses
-/// the smallest shape quotient around the vertex has another one that takes it as a third argument: see
+/// backend calls exactly this function, and finds it by the UpdateOf in the method's header. A method that uses the
+/// smallest shape quotient around the vertex has another one that takes it as a third argument: see
 /// update_with_minimum(). A method that knows more of a vertex than where its neighbours are is an object with
 ///
 ///     template <class Ring> Move<T> update(std::int32_t v, Point2<T> position, const Ring& ring) const;
@@ -110,5 +111,25 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> update_with_minimum(const Update& method
     return updated(method, v, position, ring);
   }
 }
+
+/// What visits the vertices for a method: specialised in the header of each, with a function visit() that calls another
+/// one with the update of the method as it is in use. All that runs methods finds them by it.
+template <Method method>
+struct UpdateOf;
+
+/// That of a method which knows no more of a vertex than its ring. For sweeps of the CPU, which compute many vertices
+/// side by side, Update also has its Method, as `method`, a function target(), the place that update() looks at, and a
+/// constant is_smart: whether it moves there by the rule of smart_move() only. For vertices that slide it has a
+/// function along_line(): the place to go to, given that of the vertex and those of its neighbours, as lengths along
+/// the line.
+template <class Update>
+struct UpdateByRing {
+  using Type = Update;
+
+  template <class MethodInUse, class Function>
+  static decltype(auto) visit(const MethodInUse& /*in_use*/, Function&& function) {
+    return function(Update{});
+  }
+};
 
 }  // namespace trismooth

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/method.h"
+#include "trismooth/smoothing/methods/laplacian.h"
 #include "trismooth/smoothing/methods/one_ring_update.h"
 
 namespace trismooth {
@@ -69,13 +71,19 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> smart_move(Point2<T> position, Point2<T>
   return move_to(position, target);
 }
 
-/// Smart Laplacian smoothing (the paper, section 3.3.4): to the mean of the neighbours if and only if the smallest
-/// quality of the vertex's triangles gets strictly larger, and no more of them are inverted than before.
-struct SmartLaplacian {
+/// A method that moves a vertex to Place::target() by the rule of smart_move(), and one that slides to
+/// Place::along_line().
+template <class Place>
+struct SmartMethod {
+  static constexpr bool is_smart = true;
+
   /// Where the vertex is to go if that is better.
   template <class T, class Ring>
-  static constexpr TRISMOOTH_HOST_DEVICE Point2<T> target(Point2<T> /*position*/, const Ring& ring) {
-    return laplacian_position<T>(ring);
+  static constexpr TRISMOOTH_HOST_DEVICE Point2<T> target(Point2<T> position, const Ring& ring) {
+    return Place::target(position, ring);
+  }
+  static constexpr TRISMOOTH_HOST_DEVICE double along_line(double before, double own, double after) {
+    return Place::along_line(before, own, after);
   }
 
   template <class T, class Ring>
@@ -89,5 +97,14 @@ struct SmartLaplacian {
     return smart_move(position, target(position, ring), ring, before);
   }
 };
+
+/// Smart Laplacian smoothing (the paper, section 3.3.4): to the mean of the neighbours if and only if the smallest
+/// quality of the vertex's triangles gets strictly larger, and no more of them are inverted than before.
+struct SmartLaplacian : SmartMethod<Laplacian> {
+  static constexpr Method method = Method::smart;
+};
+
+template <>
+struct UpdateOf<Method::smart> : UpdateByRing<SmartLaplacian> {};
 
 }  // namespace trismooth

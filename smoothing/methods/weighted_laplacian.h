@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "trismooth/smoothing/method.h"
 #include "trismooth/smoothing/methods/one_ring_update.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 
@@ -27,25 +28,27 @@ TRISMOOTH_HOST_DEVICE Point2<T> length_weighted_position(Point2<T> position, con
   return {position.x + sum.x * step, position.y + sum.y * step};
 }
 
-/// Length-weighted Laplacian smoothing (T. D. Blacker and M. B. Stephenson 1991), with the test of
-/// the smart one: that alone keeps it from making elements worse.
-struct WeightedLaplacian {
-  /// Where the vertex is to go if that is better.
+/// The place of length_weighted_position().
+struct LengthWeightedMean {
   template <class T, class Ring>
   static TRISMOOTH_HOST_DEVICE Point2<T> target(Point2<T> position, const Ring& ring) {
     return length_weighted_position(position, ring);
   }
-
-  template <class T, class Ring>
-  static TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring) {
-    return update(position, ring, worst_quotient(position, ring));
-  }
-
-  /// update() where `before`, the smallest quotient around the vertex, is known.
-  template <class T, class Ring>
-  static TRISMOOTH_HOST_DEVICE Move<T> update(Point2<T> position, const Ring& ring, T before) {
-    return smart_move(position, target(position, ring), ring, before);
+  /// Of the two neighbours on the line.
+  static TRISMOOTH_HOST_DEVICE double along_line(double before, double own, double after) {
+    const double back = own - before;
+    const double on = after - own;
+    return own + 2 * (on * on - back * back) / (3 * (back + on));
   }
 };
+
+/// Length-weighted Laplacian smoothing (T. D. Blacker and M. B. Stephenson 1991), with the test of
+/// the smart one: that alone keeps it from making elements worse.
+struct WeightedLaplacian : SmartMethod<LengthWeightedMean> {
+  static constexpr Method method = Method::weighted;
+};
+
+template <>
+struct UpdateOf<Method::weighted> : UpdateByRing<WeightedLaplacian> {};
 
 }  // namespace trismooth

@@ -5,10 +5,8 @@
 
 #include "trismooth/base/point2.h"
 #include "trismooth/quality/triangle_quality.h"
-#include "trismooth/smoothing/methods/laplacian.h"
 #include "trismooth/smoothing/methods/mean_ratio.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
-#include "trismooth/smoothing/methods/weighted_laplacian.h"
 #include "trismooth/smoothing/slide/slide_curve.h"
 #include "trismooth/smoothing/slide/slide_deviation.h"
 
@@ -179,8 +177,6 @@ class SlidingVertex {
     return after > before && inverted_after <= inverted_before ? moves_to(place) : stays();
   }
 
-  TRISMOOTH_HOST_DEVICE double middle() const { return before_.arc + 0.5 * (after_.arc - before_.arc); }
-
  private:
   static constexpr int most_halvings = 10;
 
@@ -194,27 +190,17 @@ class SlidingVertex {
   SlidePlace after_{};
 };
 
-/// To the middle of its neighbours on the chain.
-template <class Vertex>
-TRISMOOTH_HOST_DEVICE SlideMove slide(const Laplacian& /*method*/, const Vertex& vertex, const FanTarget& /*target*/) {
-  return vertex.moves_to(vertex.as_far_as_it_may(vertex.middle()));
-}
-
-/// To the middle if the worst of its triangles gets better (the paper's rule, section 3.3.4).
-template <class Vertex>
-TRISMOOTH_HOST_DEVICE SlideMove slide(const SmartLaplacian& /*method*/, const Vertex& vertex,
-                                      const FanTarget& /*target*/) {
-  return vertex.smart_move(vertex.as_far_as_it_may(vertex.middle()));
-}
-
-/// As length_weighted_position(), along the chain.
-template <class Vertex>
-TRISMOOTH_HOST_DEVICE SlideMove slide(const WeightedLaplacian& /*method*/, const Vertex& vertex,
-                                      const FanTarget& /*target*/) {
-  const double back = vertex.own().arc - vertex.before().arc;
-  const double on = vertex.after().arc - vertex.own().arc;
-  const double way = 2 * (on * on - back * back) / (3 * (back + on));
-  return vertex.smart_move(vertex.as_far_as_it_may(vertex.own().arc + way));
+/// To where the method says that a vertex of a line is to go: in any case, or if the worst of its triangles gets better
+/// (the paper's rule, section 3.3.4).
+template <class Update, class Vertex>
+TRISMOOTH_HOST_DEVICE SlideMove slide(const Update& /*method*/, const Vertex& vertex, const FanTarget& /*target*/) {
+  const SlidePlace place =
+      vertex.as_far_as_it_may(Update::along_line(vertex.before().arc, vertex.own().arc, vertex.after().arc));
+  if constexpr (Update::is_smart) {
+    return vertex.smart_move(place);
+  } else {
+    return vertex.moves_to(place);
+  }
 }
 
 /// The energy of a fan along the chain.

@@ -1,11 +1,9 @@
 #include "trismooth/smoothing/sweeps/lane_update.h"
 
-#include <type_traits>
+#include <utility>
 
 #include "trismooth/base/machine/compiled_for.h"
-#include "trismooth/smoothing/methods/laplacian.h"
-#include "trismooth/smoothing/methods/smart_laplacian.h"
-#include "trismooth/smoothing/methods/weighted_laplacian.h"
+#include "trismooth/smoothing/methods/methods.h"
 
 // One loop, which calls the methods' own functions for each lane.
 namespace trismooth {
@@ -25,12 +23,11 @@ struct RingInLane {
 /// The method's update of one vertex, but for smart ones around inverted triangles: these take a second look.
 template <class Update, class T, class Ring>
 [[gnu::always_inline]] inline void update_lane(int lane, const Ring& ring, RingLanes<T>& rings) {
-  constexpr bool is_smart = !std::is_same_v<Update, Laplacian>;
   const Point2<T> position{rings.position_x[lane], rings.position_y[lane]};
   const Point2<T> target = Update::target(position, ring);
   bool moves = is_move(position, target);
   bool is_undecided = false;
-  if constexpr (is_smart) {
+  if constexpr (Update::is_smart) {
     const T before = worst_quotient(position, ring);
     moves &= is_better_than(before, target, ring);
     is_undecided = before < T(0);
@@ -67,16 +64,18 @@ template <class Update, class T>
 
 }  // namespace
 
-template <class Update, class T>
-LaneUpdate<T> lane_update(InstructionSet instructions) {
-  return compiled_for<update_lanes<Update, T>>(instructions);
+template <class T>
+LaneUpdate<T> lane_update(Method method, InstructionSet instructions) {
+  return visit_method(MethodInUse<T>{method}, [&]<class Update>(const Update& /*update*/) -> LaneUpdate<T> {
+    if constexpr (requires { Update::is_smart; }) {
+      return compiled_for<update_lanes<Update, T>>(instructions);
+    } else {
+      return nullptr;
+    }
+  });
 }
 
-#define INSTANTIATE(Update)                                              \
-  template LaneUpdate<float> lane_update<Update, float>(InstructionSet); \
-  template LaneUpdate<double> lane_update<Update, double>(InstructionSet)
-INSTANTIATE(SmartLaplacian);
-INSTANTIATE(Laplacian);
-INSTANTIATE(WeightedLaplacian);
+template LaneUpdate<float> lane_update(Method, InstructionSet);
+template LaneUpdate<double> lane_update(Method, InstructionSet);
 
 }  // namespace trismooth

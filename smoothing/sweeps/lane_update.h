@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trismooth/base/machine/instruction_set.h"
+#include "trismooth/smoothing/method.h"
 #include "trismooth/smoothing/sweeps/ring_lanes.h"
 
 namespace trismooth {
@@ -9,8 +10,8 @@ namespace trismooth {
 template <class T>
 using LaneUpdate = void (*)(int ring_size, int count, RingLanes<T>& rings);
 
-/// That of a method, SmartLaplacian, Laplacian or WeightedLaplacian, by these instructions: the bits of its update().
-template <class Update, class T>
-LaneUpdate<T> lane_update(InstructionSet instructions);
+/// That of a method by these instructions: the bits of its update(). Null for a method without lanes: see UpdateByRing.
+template <class T>
+LaneUpdate<T> lane_update(Method method, InstructionSet instructions);
 
 }  // namespace trismooth

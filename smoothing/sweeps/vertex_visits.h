@@ -47,7 +47,7 @@ class SideBySide {
   RingLanes<T> lanes_;
   const RingView& rings_;
   std::span<const Point2<T>> points_;
-  LaneUpdate<T> update_ = lane_update<Method, T>(instruction_set());
+  LaneUpdate<T> update_ = lane_update<T>(Method::method, instruction_set());
 };
 
 /// Visits of a method to vertices, many of them side by side. What lanes cannot tell is asked for alone.

@@ -250,7 +250,7 @@ class Table {
     SmoothingOptions options;
     options.max_sweeps = max_sweeps;
     options.untangle = Untangle::off;  // tangled meshes would go to the host
-    for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
+    for (const Method method : trismooth::values_of<Method>()) {
       for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
         options.method = method;
         options.precision = precision;

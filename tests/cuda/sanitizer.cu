@@ -110,10 +110,11 @@ constexpr std::int64_t most_sweeps = 4;
 /// All executions that this program has, on one mesh, against the CPU.
 void compare_executions(const test_meshes::Mesh& mesh) {
   const auto triangles = mesh.indices();
-  for (const auto& [method, target] :
-       {std::pair(Method::smart, TargetShape::uniform), std::pair(Method::laplacian, TargetShape::uniform),
-        std::pair(Method::weighted, TargetShape::uniform), std::pair(Method::mean_ratio, TargetShape::uniform),
-        std::pair(Method::mean_ratio, TargetShape::input)}) {
+  std::vector<std::pair<Method, TargetShape>> ways{{Method::mean_ratio, TargetShape::input}};
+  for (const Method method : values_of<Method>()) {
+    ways.emplace_back(method, TargetShape::uniform);
+  }
+  for (const auto& [method, target] : ways) {
     for (const Form form : {Form::swap, Form::in_place}) {
       for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
         SmoothingOptions options;

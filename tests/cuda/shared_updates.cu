@@ -6,15 +6,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <cuda_runtime.h>
 
 #include "trismooth/base/splitmix64.h"
-#include "trismooth/smoothing/methods/laplacian.h"
-#include "trismooth/smoothing/methods/mean_ratio.h"
-#include "trismooth/smoothing/methods/smart_laplacian.h"
-#include "trismooth/smoothing/methods/weighted_laplacian.h"
+#include "trismooth/smoothing/methods/methods.h"
 
 namespace {
 
@@ -24,6 +22,7 @@ using trismooth::Point2;
 constexpr int skipped = 77;
 constexpr int largest_ring = 12;
 constexpr int cases = 200000;
+constexpr auto methods = trismooth::values_of<trismooth::Method>();
 
 void check(cudaError_t error, const char* call, int line) {
   if (error != cudaSuccess) {
@@ -47,9 +46,7 @@ struct Case {
 
 template <class T>
 struct Answer {
-  Move<T> smart;
-  Move<T> laplacian;
-  Move<T> weighted;
+  Move<T> by_ring[methods.size()];  ///< of the methods that know the ring alone
   Move<T> mean_ratio;
   Move<T> mean_ratio_to_shapes;
   T worst;
@@ -73,15 +70,28 @@ __host__ __device__ Move<T> mean_ratio(const Case<T>& ring, int index) {
                       : trismooth::MeanRatio<T, shaped, false>(targets, step).update(0, ring.position, ring);
 }
 
-template <class T>
-__host__ __device__ Answer<T> answer(const Case<T>& ring, int index) {
-  return {trismooth::SmartLaplacian::update(ring.position, ring),
-          trismooth::Laplacian::update(ring.position, ring),
-          trismooth::WeightedLaplacian::update(ring.position, ring),
+template <trismooth::Method method, class T>
+__host__ __device__ Move<T> by_ring(const Case<T>& ring) {
+  using Update = trismooth::UpdateOf<method>;
+  if constexpr (requires { typename Update::Type; }) {
+    return Update::Type::update(ring.position, ring);
+  } else {
+    return trismooth::stay(ring.position);
+  }
+}
+
+template <class T, std::size_t... method>
+__host__ __device__ Answer<T> answer(const Case<T>& ring, int index, std::index_sequence<method...> /*of all*/) {
+  return {{by_ring<methods[method]>(ring)...},
           mean_ratio<T, false>(ring, index),
           mean_ratio<T, true>(ring, index),
           trismooth::worst_quotient(ring.position, ring),
           trismooth::splitmix64(static_cast<std::uint64_t>(index))};
+}
+
+template <class T>
+__host__ __device__ Answer<T> answer(const Case<T>& ring, int index) {
+  return answer(ring, index, std::make_index_sequence<methods.size()>());
 }
 
 template <class T>
@@ -143,12 +153,15 @@ int differences(const char* type) {
   for (int i = 0; i < cases; ++i) {
     const Answer<T> host = answer(rings[i], i);
     const Answer<T>& device = answers[i];
-    smart_moves += host.smart.moved ? 1 : 0;
+    smart_moves += host.by_ring[0].moved ? 1 : 0;
     mean_ratio_moves += host.mean_ratio.moved ? 1 : 0;
-    const bool same = same_bits(host.smart, device.smart) && same_bits(host.laplacian, device.laplacian) &&
-                      same_bits(host.weighted, device.weighted) && same_bits(host.mean_ratio, device.mean_ratio) &&
-                      same_bits(host.mean_ratio_to_shapes, device.mean_ratio_to_shapes) && host.hash == device.hash &&
-                      std::memcmp(&host.worst, &device.worst, sizeof(T)) == 0;
+    bool same = true;
+    for (std::size_t method = 0; method < methods.size(); ++method) {
+      same = same && same_bits(host.by_ring[method], device.by_ring[method]);
+    }
+    same = same && same_bits(host.mean_ratio, device.mean_ratio) &&
+           same_bits(host.mean_ratio_to_shapes, device.mean_ratio_to_shapes) && host.hash == device.hash &&
+           std::memcmp(&host.worst, &device.worst, sizeof(T)) == 0;
     different += same ? 0 : 1;
   }
   std::printf("%s: %d rings, %d smart and %d mean-ratio moves, %d differ\n", type, cases, smart_moves, mean_ratio_moves,

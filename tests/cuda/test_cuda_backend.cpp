@@ -37,7 +37,7 @@ using test_meshes::Mesh;
 
 namespace {
 
-constexpr auto methods = {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio};
+constexpr auto methods = trismooth::values_of<Method>();
 
 }  // namespace
 

@@ -12,7 +12,8 @@ In README.md and docs/*.md:
 - links must lead to files and headings, and names of files in backticks and in the picture of the architecture must
   exist;
 - every option of the program must be on the page of the command line, and every option named anywhere must be one;
-- every extension of a format must be on the page of the formats.
+- every method must be in the table of the page of the methods, and every extension of a format on the page of the
+  formats.
 
 PART (cuda, halfedge, mesh_io, pipeline) is a part that the build does not have: C++ that includes it is left out.
 Python 3 and its standard library suffice.
@@ -201,6 +202,14 @@ def check_options(program):
             yield f"{page.relative_to(ROOT)}: trismooth has no option {option}"
 
 
+def check_methods(program):
+    bad = subprocess.run([program, "smooth", "a", "b", "--method", ""], stderr=subprocess.PIPE, text=True, check=False)
+    page = (ROOT / "docs/method.md").read_text()
+    for method in re.search("valid are (.*)", bad.stderr)[1].split(", "):
+        if f"| `{method}` |" not in page:
+            yield f"docs/method.md: the method {method} is missing"
+
+
 def check_formats(program):
     info = subprocess.run([program, "info"], stdout=subprocess.PIPE, text=True, check=True).stdout
     page = (ROOT / "docs/formats.md").read_text()
@@ -233,6 +242,7 @@ def main():
         faults += check_paths(page)
     faults += check_picture(ROOT / "docs/images/architecture.svg")
     faults += check_options(arguments.program)
+    faults += check_methods(arguments.program)
     faults += check_formats(arguments.program)
     for block in blocks:
         if not block.language:

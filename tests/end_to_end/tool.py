@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -68,6 +69,10 @@ class ToolTest(unittest.TestCase):
         if expect is not None:
             self.assertEqual(outcome.code, expect, f"trismooth {' '.join(map(str, arguments))}\n{outcome}")
         return outcome
+
+    def methods(self):
+        """The names of all methods, as the program lists them."""
+        return re.search(r"valid are (.*)", self.run_tool("smooth", "a", "b", "--method", "", expect=2).err)[1].split(", ")
 
     def report(self, *arguments, **options):
         """Runs the program quietly with a JSON report; returns that report."""

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -7,8 +8,17 @@
 #include <span>
 
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/smoothing/method.h"
 
 namespace fuzz {
+
+/// All methods, mean-ratio second: the inputs that are kept have chosen in this order.
+inline auto all_methods() {
+  auto methods = trismooth::values_of<trismooth::Method>();
+  std::rotate(methods.begin() + 1, std::ranges::find(methods, trismooth::Method::mean_ratio),
+              std::ranges::find(methods, trismooth::Method::mean_ratio) + 1);
+  return methods;
+}
 
 /// Choices made from the bytes of an input, front to back; zeros where they have ended.
 class InputBytes {
@@ -28,6 +38,10 @@ class InputBytes {
   int below(int bound) { return byte() % bound; }
   template <class T, std::size_t count>
   T one_of(const T (&values)[count]) {
+    return values[below(static_cast<int>(count))];
+  }
+  template <class T, std::size_t count>
+  T one_of(const std::array<T, count>& values) {
     return values[below(static_cast<int>(count))];
   }
   template <class T>

@@ -213,7 +213,7 @@ Holds choose_holds(InputBytes& input, std::size_t vertices, std::size_t triangle
 SmoothingOptions choose_options(InputBytes& input) {
   SmoothingOptions options;
   using trismooth::Method;
-  options.method = input.one_of({Method::smart, Method::mean_ratio, Method::laplacian, Method::weighted});
+  options.method = input.one_of(all_methods());
   options.form = input.one_of({trismooth::Form::swap, trismooth::Form::in_place});
   options.precision = input.one_of({trismooth::Precision::double_precision, trismooth::Precision::single_precision});
   options.evaluation = input.one_of({trismooth::Evaluation::changed, trismooth::Evaluation::all});

@@ -134,8 +134,8 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
 
 trismooth::SmoothingOptions choose_options(HashedChoices& choices) {
   trismooth::SmoothingOptions options;
-  using trismooth::Method;
-  options.method = std::array{Method::smart, Method::mean_ratio, Method::laplacian, Method::weighted}[choices.below(4)];
+  const auto methods = all_methods();
+  options.method = methods[choices.below(methods.size())];
   options.form = choices.flag() ? trismooth::Form::swap : trismooth::Form::in_place;
   options.precision = choices.flag() ? trismooth::Precision::single_precision : trismooth::Precision::double_precision;
   const std::size_t guard = choices.below(32);

@@ -66,7 +66,7 @@ TEST_CASE("what an untangling turned over is counted as it is turned, and what i
 TEST_CASE("the counts are those of the quality report for every method, of meshes with folds, on any threads") {
   for (int round = 0; round < 6; ++round) {
     const test_meshes::Mesh mesh = test_meshes::jittered_grid(40, 40, 0.9, 100 + round);
-    for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
+    for (const Method method : trismooth::values_of<Method>()) {
       for (const bool guard : {true, false}) {
         CAPTURE(round, method, guard);
         SmoothingOptions options;

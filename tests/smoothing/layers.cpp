@@ -31,7 +31,7 @@ using trismooth::Method;
 using trismooth::SmoothingOptions;
 using trismooth::SmoothingResult;
 
-constexpr Method all_methods[] = {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio};
+constexpr auto all_methods = trismooth::values_of<Method>();
 
 Mesh layered(std::int32_t columns, std::vector<double> heights, double layer_jitter = 0) {
   Random random(7);

@@ -100,7 +100,7 @@ struct Case {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
+  for (const Method method : trismooth::values_of<Method>()) {
     for (const Form form : {Form::swap, Form::in_place}) {
       for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
         for (const Storage storage : {Storage::float64, Storage::float32}) {

@@ -1,11 +1,9 @@
 #include "trismooth/smoothing/methods/one_ring_update.h"
 
+#include <cstddef>
 #include <limits>
-#include <vector>
 
-#include "trismooth/smoothing/methods/laplacian.h"
-#include "trismooth/smoothing/methods/smart_laplacian.h"
-#include "trismooth/smoothing/methods/weighted_laplacian.h"
+#include "trismooth/smoothing/methods/methods.h"
 
 #include "catch.h"
 #include "support/naive_smoothing.h"
@@ -53,31 +51,49 @@ TEST_CASE("a move is one to another finite point only") {
   }
 }
 
-TEMPLATE_TEST_CASE("no method moves a vertex where a position is no number or infinite", "", trismooth::Laplacian,
-                   trismooth::SmartLaplacian, trismooth::WeightedLaplacian) {
-  test_meshes::Random random(2);
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    for (int i = 0; i < 500; ++i) {
-      RingOf<double> ring = random_rings::any<double>(random);
-      const Point2<double> here{random.between(-1, 1), random.between(-1, 1)};
-      const auto which = static_cast<std::size_t>(random.below(ring.size()));
-      (random.below(2) == 0 ? ring.positions[which].x : ring.positions[which].y) = bad;
-      const auto move = TestType::template update<double>(here, ring);
-      REQUIRE_FALSE(move.moved);
-      REQUIRE(move.position == here);
-    }
+/// Calls `function` with the update of every method that knows the ring alone.
+template <class Function>
+void for_updates_by_ring(const Function& function) {
+  for (const Method method : values_of<Method>()) {
+    CAPTURE(to_string(method));
+    visit_method(MethodInUse<double>{method}, [&]<class Update>(const Update& update) {
+      if constexpr (requires { Update::is_smart; }) {
+        function(update);
+      }
+    });
   }
 }
 
-TEMPLATE_TEST_CASE("no method that looks at the vertex itself moves one that is nowhere", "", trismooth::SmartLaplacian,
-                   trismooth::WeightedLaplacian) {
-  test_meshes::Random random(3);
-  constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 500; ++i) {
-    const RingOf<double> ring = random_rings::any<double>(random);
-    REQUIRE_FALSE(TestType::template update<double>({no_number, 0}, ring).moved);
-    REQUIRE_FALSE(TestType::template update<double>({0, no_number}, ring).moved);
-  }
+TEST_CASE("no method moves a vertex where a position is no number or infinite") {
+  for_updates_by_ring([]<class Update>(const Update& /*update*/) {
+    test_meshes::Random random(2);
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      for (int i = 0; i < 500; ++i) {
+        RingOf<double> ring = random_rings::any<double>(random);
+        const Point2<double> here{random.between(-1, 1), random.between(-1, 1)};
+        const auto which = static_cast<std::size_t>(random.below(ring.size()));
+        (random.below(2) == 0 ? ring.positions[which].x : ring.positions[which].y) = bad;
+        const auto move = Update::template update<double>(here, ring);
+        REQUIRE_FALSE(move.moved);
+        REQUIRE(move.position == here);
+      }
+    }
+  });
+}
+
+TEST_CASE("no method that looks at the vertex itself moves one that is nowhere") {
+  for_updates_by_ring([]<class Update>(const Update& /*update*/) {
+    if (!Update::is_smart) {
+      return;
+    }
+    test_meshes::Random random(3);
+    constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < 500; ++i) {
+      const RingOf<double> ring = random_rings::any<double>(random);
+      REQUIRE_FALSE(Update::template update<double>({no_number, 0}, ring).moved);
+      REQUIRE_FALSE(Update::template update<double>({0, no_number}, ring).moved);
+    }
+  });
 }
 
 }  // namespace trismooth::one_ring_update_test

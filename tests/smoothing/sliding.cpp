@@ -52,7 +52,7 @@ double off_circle(const std::vector<Point>& circle, double radius) {
 }
 
 TEST_CASE("vertices of a square's sides slide, its corners stay, and the sides keep their coordinate to the bit") {
-  for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
+  for (const Method method : trismooth::values_of<Method>()) {
     const Mesh mesh = square_with_uneven_sides(2);
     Constraints constraints;
     constraints.slide.along = Slide::straight;

@@ -67,7 +67,7 @@ TEST_CASE("linked sides stay equal to the bit, and slide") {
     mesh.points[(side - 1) * side + i].x = mesh.points[i].x;       // top as bottom
     links.insert(links.end(), {i * side, i * side + side - 1, (side - 1) * side + i, i});
   }
-  for (const Method method : {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio}) {
+  for (const Method method : trismooth::values_of<Method>()) {
     Constraints constraints;
     constraints.slide.along = Slide::straight;
     constraints.slide.links = links;

@@ -36,7 +36,7 @@ concept CanBePlanned = requires(Triangles&& triangles, const Constraints& constr
 static_assert(CanBePlanned<std::vector<std::int32_t>&> && !CanBePlanned<std::vector<std::int32_t>>);
 static_assert(!std::is_copy_constructible_v<SmoothingPlan> && std::is_nothrow_move_constructible_v<SmoothingPlan>);
 
-constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio};
+constexpr auto methods = trismooth::values_of<Method>();
 constexpr Form forms[] = {Form::swap, Form::in_place};
 constexpr Precision precisions[] = {Precision::double_precision, Precision::single_precision};
 

@@ -109,7 +109,7 @@ void check_against_reference(const Mesh& mesh, SmoothingOptions options) {
   }
 }
 
-constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio};
+constexpr auto methods = trismooth::values_of<Method>();
 constexpr Form forms[] = {Form::swap, Form::in_place};
 constexpr Precision precisions[] = {Precision::double_precision, Precision::single_precision};
 
@@ -176,7 +176,7 @@ TEST_CASE("random small meshes, tangled or not, equal the naive reference") {
     const Mesh mesh =
         test_meshes::shuffled(test_meshes::jittered_grid(columns, rows, random.between(0, 2.5), seed), seed);
     SmoothingOptions options;
-    options.method = methods[random.below(4)];
+    options.method = methods[static_cast<std::size_t>(random.below(methods.size()))];
     options.form = forms[random.below(2)];
     options.precision = precisions[random.below(2)];
     options.max_sweeps = 30;

@@ -163,7 +163,13 @@ Point2<T> weighted(Point2<T> position, const Ring<T>& ring) {
   return {position.x + step * sum.x, position.y + step * sum.y};
 }
 
-/// Where the method puts the vertex; `position` itself where it stays.
+/// Whether the method's formula is here as well. What others say of a vertex is asked of themselves, whose own tests
+/// have it in another form.
+constexpr bool has_formula(Method method) {
+  return method == Method::smart || method == Method::laplacian || method == Method::weighted;
+}
+
+/// Where a method with a formula puts the vertex; `position` itself where it stays.
 template <class T>
 Point2<T> updated(Method method, Point2<T> position, const Ring<T>& ring) {
   const Point2<T> target = method == Method::weighted ? weighted(position, ring) : laplacian(ring);
@@ -189,7 +195,7 @@ struct Outcome {
   StopReason reason = StopReason::fixed_point;
 };
 
-/// A ring as the mean-ratio method asks for it.
+/// A ring as methods ask for it that know more of a vertex than its ring.
 template <class T>
 struct NumberedRing {
   const Ring<T>& positions;
@@ -246,12 +252,13 @@ Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method
   }
   MeanRatioStages stages(form, visited.size());
   const auto update = [&](std::int32_t v, Point2<T> position, const Ring<T>& ring) {
-    if (!is_mean_ratio) {
+    if (has_formula(method)) {
       return updated(method, position, ring);
     }
     const NumberedRing<T> numbered{ring, rings[v]};
-    return trismooth::visit_mean_ratio(aims.view(), stages.template step<T>(),
-                                       [&](const auto& step) { return step.update(v, position, numbered).position; });
+    return trismooth::visit_method(
+        trismooth::MethodInUse<T>{method, aims.view(), stages.template step<T>()},
+        [&](const auto& by) { return trismooth::updated(by, v, position, numbered).position; });
   };
   std::vector<Ring<T>> last_read(points.size());
   Outcome outcome;
