@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 
 namespace trismooth {
@@ -89,7 +90,7 @@ std::string format_list() {
     for (const std::string_view extension : extensions_of(format)) {
       if (is_available(format) && std::ranges::find(listed, extension) == listed.end()) {
         listed.push_back(extension);
-        list.append(list.empty() ? "" : ", ").append(extension);
+        add_to_list(list, extension);
       }
     }
   }
@@ -100,7 +101,7 @@ std::string format_names() {
   std::string list;
   for (const FileFormat format : ordered_formats) {
     if (is_available(format)) {
-      list.append(list.empty() ? "" : ", ").append(to_string(format));
+      add_to_list(list, to_string(format));
     }
   }
   return list;
@@ -110,11 +111,7 @@ std::string titled_format_list() {
   std::string list;
   for (const FileFormat format : ordered_formats) {
     if (is_available(format)) {
-      std::string extensions;
-      for (const std::string_view extension : extensions_of(format)) {
-        extensions.append(extensions.empty() ? "" : ", ").append(extension);
-      }
-      list.append(list.empty() ? "" : ", ").append(title_of(format)).append(" (" + extensions + ")");
+      add_to_list(list, std::string(title_of(format)) + " (" + list_text(extensions_of(format)) + ")");
     }
   }
   return list;

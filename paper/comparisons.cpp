@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/paper/wording.h"
 #include "trismooth/quality/report_text.h"
 
@@ -106,7 +107,7 @@ std::string by_size(const ExperimentResult& result, const std::vector<Comparison
     std::ranges::copy_if(comparisons, std::back_inserter(here),
                          [&](const Comparison& comparison) { return comparison.vertices == size; });
     if (!here.empty()) {
-      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", size_text(size), three_digits(overall(here).median));
+      add_to_list(text, fmt::format("{}: {}", size_text(size), three_digits(overall(here).median)), "; ");
     }
   }
   return "The median of these factors by size: " + text + ".";

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/paper/wording.h"
 #include "trismooth/quality/report_text.h"
 
@@ -212,8 +213,10 @@ std::string sweeps_by_size(const ExperimentResult& result, const std::vector<Com
       }
     }
     if (!sweeps[0].empty()) {
-      text += fmt::format("{}{}: {} and {}", text.empty() ? "" : "; ", size_text(size), sweeps_text(Spread(sweeps[1])),
-                          sweeps_text(Spread(sweeps[0])));
+      add_to_list(
+          text,
+          fmt::format("{}: {} and {}", size_text(size), sweeps_text(Spread(sweeps[1])), sweeps_text(Spread(sweeps[0]))),
+          "; ");
     }
   }
   return "Sweeps to the stop, Form A and Form B: " + text + ".";

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/base/machine/processor_name.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/paper/wording.h"
 #include "trismooth/quality/report_text.h"
 #include "trismooth/smoothing/options.h"
@@ -26,7 +27,7 @@ std::string list_of(const ExperimentResult& result, const Predicate& is_meant, c
     }
     std::string item = text(row);
     if (std::ranges::find(seen, item) == seen.end()) {
-      list += (list.empty() ? "" : ", ") + item;
+      add_to_list(list, item);
       seen.push_back(std::move(item));
     }
   }

@@ -4,6 +4,7 @@
 
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/text/digits.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/triangle_quality.h"
 
@@ -44,8 +45,7 @@ std::string describe(const PrecisionLoss& loss) {
   std::string lost;
   const auto add = [&](std::int64_t count, const std::string& what) {
     if (count > 0) {
-      lost +=
-          (lost.empty() ? "" : ", ") + what + ": " + std::to_string(count) + " of " + std::to_string(loss.triangles);
+      add_to_list(lost, what + ": " + std::to_string(count) + " of " + std::to_string(loss.triangles));
     }
   };
   add(loss.collapsed, "triangles that collapse");

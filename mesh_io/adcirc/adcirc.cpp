@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/adcirc/adcirc_boundary.h"
 #include "trismooth/mesh_io/adcirc/adcirc_line_boundaries.h"
 #include "trismooth/mesh_io/adcirc/adcirc_reader.h"
@@ -116,13 +117,10 @@ std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
   std::ranges::copy(boundaries.losses, std::back_inserter(sentences));
   std::ranges::move(describe_lost_arrays("ADCIRC", lost), std::back_inserter(sentences));
   if (!lost.point_sets.empty()) {
-    std::string sentence =
+    sentences.push_back(
         "ADCIRC holds boundaries without heights by their names ('open boundary 1', 'land boundary "
-        "1 (type 20)'), no other sets of points: ";
-    for (const NamedSet& set : lost.point_sets) {
-      sentence.append(&set == lost.point_sets.data() ? "" : ", ").append(set.name.empty() ? "(no name)" : set.name);
-    }
-    sentences.push_back(sentence + (lost.point_sets.size() == 1 ? " is not written" : " are not written"));
+        "1 (type 20)'), no other sets of points: " +
+        list_text(lost.point_sets, shown_name<NamedSet>) + not_written(lost.point_sets.size()));
     lost.point_sets.clear();
   }
   std::ranges::move(describe_lost_sets("ADCIRC", lost), std::back_inserter(sentences));

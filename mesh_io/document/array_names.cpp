@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "trismooth/base/text/list_text.h"
+
 namespace trismooth {
 
 std::string array_names(std::span<const DataArray> arrays) {
-  std::string names;
-  for (const DataArray& array : arrays) {
-    names.append(names.empty() ? "" : ", ").append(array.name);
-  }
+  const std::string names = list_text(arrays, &DataArray::name);
   return names.empty() ? "none" : names;
 }
 

@@ -4,22 +4,19 @@
 #include <array>
 
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 
 namespace trismooth {
 
 namespace {
 
-void describe(std::vector<std::string>& sentences, std::string_view format, std::string_view kind,
-              std::span<const DataArray> arrays) {
-  if (arrays.empty()) {
-    return;
+/// Adds the sentence for arrays or sets, if there are any.
+template <class All>
+void describe(std::vector<std::string>& sentences, std::string_view format, std::string_view what, const All& all) {
+  if (!all.empty()) {
+    sentences.push_back(std::string(format) + " holds no " + std::string(what) + ": " +
+                        list_text(all, shown_name<typename All::value_type>) + not_written(all.size()));
   }
-  std::string sentence(format);
-  sentence.append(" holds no ").append(kind).append(" arrays: ");
-  for (const DataArray& array : arrays) {
-    sentence.append(&array == arrays.data() ? "" : ", ").append(array.name.empty() ? "(no name)" : array.name);
-  }
-  sentences.push_back(sentence + (arrays.size() == 1 ? " is not written" : " are not written"));
 }
 
 std::string type_name(std::size_t type) {
@@ -65,9 +62,9 @@ std::string type_name(std::size_t type) {
 
 std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document) {
   std::vector<std::string> sentences;
-  describe(sentences, format, "point", document.point_arrays);
-  describe(sentences, format, "cell", document.cell_arrays);
-  describe(sentences, format, "field", document.field_arrays);
+  describe(sentences, format, "point arrays", document.point_arrays);
+  describe(sentences, format, "cell arrays", document.cell_arrays);
+  describe(sentences, format, "field arrays", document.field_arrays);
   return sentences;
 }
 
@@ -75,7 +72,7 @@ std::vector<std::string> describe_lost_names(std::string_view format, const Mesh
   std::string arrays;
   for (const DataArray& array : document.cell_arrays) {
     if (array.description != nullptr && !array.description->value_names.empty()) {
-      arrays.append(arrays.empty() ? "" : ", ").append(array.name);
+      add_to_list(arrays, array.name);
     }
   }
   if (arrays.empty()) {
@@ -86,19 +83,8 @@ std::vector<std::string> describe_lost_names(std::string_view format, const Mesh
 
 std::vector<std::string> describe_lost_sets(std::string_view format, const MeshDocument& document) {
   std::vector<std::string> sentences;
-  const auto describe = [&](std::string_view kind, const std::vector<NamedSet>& sets) {
-    if (sets.empty()) {
-      return;
-    }
-    std::string sentence(format);
-    sentence.append(" holds no sets of ").append(kind).append(": ");
-    for (const NamedSet& set : sets) {
-      sentence.append(&set == sets.data() ? "" : ", ").append(set.name.empty() ? "(no name)" : set.name);
-    }
-    sentences.push_back(sentence + (sets.size() == 1 ? " is not written" : " are not written"));
-  };
-  describe("points", document.point_sets);
-  describe("cells", document.cell_sets);
+  describe(sentences, format, "sets of points", document.point_sets);
+  describe(sentences, format, "sets of cells", document.cell_sets);
   return sentences;
 }
 
@@ -132,17 +118,14 @@ std::vector<std::string> describe_lost_cells(std::string_view format, std::strin
   std::size_t total = 0;
   for (std::size_t type = 0; type < counts.size(); ++type) {
     if (counts[type] > 0) {
-      lost.append(lost.empty() ? "" : ", ").append(counted(counts[type], "cell of type ", "cells of type "));
-      lost.append(type_name(type));
+      add_to_list(lost, counted(counts[type], "cell of type ", "cells of type ") + type_name(type));
       total += counts[type];
     }
   }
   if (lost.empty()) {
     return {};
   }
-  std::string sentence(format);
-  sentence.append(" holds ").append(holds).append(" only: ").append(lost);
-  return {sentence + (total == 1 ? " is not written" : " are not written")};
+  return {std::string(format) + " holds " + std::string(holds) + " only: " + lost + not_written(total)};
 }
 
 }  // namespace trismooth

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -9,6 +10,17 @@
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
+
+/// " is not written", or " are not written" of several: how sentences of what is lost end.
+inline std::string not_written(std::size_t count) {
+  return count == 1 ? " is not written" : " are not written";
+}
+
+/// The name of an array or a set, or "(no name)".
+template <class Named>
+std::string_view shown_name(const Named& named) {
+  return named.name.empty() ? std::string_view("(no name)") : named.name;
+}
 
 /// One sentence for every kind of array that the document has, naming the arrays: "OFF holds no cell arrays: region
 /// is not written". For formats that hold no arrays; `format` is the format's name in the sentences.

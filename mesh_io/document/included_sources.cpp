@@ -1,5 +1,6 @@
 #include "trismooth/mesh_io/document/included_sources.h"
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -54,16 +55,7 @@ IncludedFile find_included(const std::filesystem::path& name, std::span<const st
 
 std::string note_of_included(const std::set<std::string>& names) {
   constexpr std::size_t most_listed = 12;
-  std::string list;
-  std::size_t count = 0;
-  for (const std::string& name : names) {
-    if (count++ == most_listed) {
-      list.append(", ...");
-      break;
-    }
-    list.append(list.empty() ? "" : ", ").append(trismooth::quoted(name));
-  }
-  return "includes " + list +
+  return "includes " + first_of_list(names, most_listed, trismooth::quoted) +
          ": a file whose nodes move, or that is not found from the output's folder, is written in the place of the "
          "line that includes it; the file itself stays as it is";
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/format_losses.h"
@@ -199,7 +200,7 @@ std::vector<std::string> lost_in_inp(const MeshDocument& document) {
     std::string all;
     for (const InpSetNames* const taken : {&sets.cell_names, &sets.point_names}) {
       for (const std::string& name : (taken->*names)()) {
-        all.append(all.empty() ? "" : ", ").append(name);
+        add_to_list(all, name);
       }
     }
     if (!all.empty()) {

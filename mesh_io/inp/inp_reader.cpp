@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/errors.h"
@@ -21,15 +22,7 @@ namespace {
 template <class Names>
 std::string listed_names(const Names& names) {
   constexpr std::size_t most_listed = 8;
-  std::string list;
-  std::size_t count = 0;
-  for (const auto& name : names) {
-    if (count++ == most_listed) {
-      return list + ", ...";
-    }
-    list.append(list.empty() ? "" : ", ").append(name);
-  }
-  return list;
+  return first_of_list(names, most_listed);
 }
 
 void add_notes(const InpModel& model, std::size_t unknown_members, std::vector<std::string>& notes) {

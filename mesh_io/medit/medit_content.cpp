@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/document/point_labels.h"
 
@@ -167,7 +168,7 @@ std::vector<std::string> MeditContent::losses() const {
       continue;
     }
     if (is_required_set(set)) {
-      as_vertices.append(as_vertices.empty() ? "" : ", ").append(set.name);
+      add_to_list(as_vertices, set.name);
     } else {
       rest.point_sets.push_back(set);
     }

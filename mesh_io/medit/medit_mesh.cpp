@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/cells/uniform_cells.h"
 #include "trismooth/mesh_io/document/integer_array.h"
@@ -101,11 +102,8 @@ std::optional<MeditMesh::WrongNumber> MeditMesh::finish() {
     document.notes.emplace_back("The file has no End: nothing says whether something is missing there.");
   }
   if (!others_.empty()) {
-    std::string list;
-    for (const std::string& name : others_) {
-      list.append(list.empty() ? "" : ", ").append(name);
-    }
-    document.notes.push_back("Kept in Medit output only, where it is text or binary as the input is: " + list + ".");
+    document.notes.push_back(
+        "Kept in Medit output only, where it is text or binary as the input is: " + list_text(others_) + ".");
   }
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/document/patched_original.h"
@@ -45,7 +46,7 @@ class MshOriginal : public OriginalFile {
         list.parametric.points.assign(points.begin(), points.end());
         maps_[i] = MshAffineMap::find(points, list.parametric.values, list.parametric.parameters);
         if (!maps_[i] && list.parametric.dimension == 2) {
-          entities.append(entities.empty() ? "" : ", ").append(std::to_string(list.parametric.entity));
+          add_to_list(entities, std::to_string(list.parametric.entity));
         }
       }
     }

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
@@ -357,10 +358,8 @@ class MshReader {
     if (!kept_sections_.empty()) {
       std::ranges::sort(kept_sections_);
       kept_sections_.erase(std::unique(kept_sections_.begin(), kept_sections_.end()), kept_sections_.end());
-      std::string names;
-      for (const std::string& name : kept_sections_) {
-        names.append(names.empty() ? "" : ", ").append(trismooth::quoted("$" + name));
-      }
+      const std::string names =
+          list_text(kept_sections_, [](const std::string& name) { return trismooth::quoted("$" + name); });
       document_.notes.push_back("What the sections " + names + " say is kept in MSH output only.");
     }
   }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/errors.h"
@@ -266,8 +267,7 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
   sort(document.point_arrays, false);
   sort(document.cell_arrays, true);
   if (!refused.empty()) {
-    sentences.push_back("MSH holds fields of 1, 3 or 9 numbers: " + array_names(refused) +
-                        (refused.size() == 1 ? " is not written" : " are not written"));
+    sentences.push_back("MSH holds fields of 1, 3 or 9 numbers: " + array_names(refused) + not_written(refused.size()));
   }
   if (!padded.empty()) {
     sentences.push_back("MSH holds fields of 1, 3 or 9 numbers: " + array_names(padded) +
@@ -278,11 +278,7 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
                         (rounded.size() == 1 ? " is rounded" : " are rounded"));
   }
   if (!plan.renamed.empty()) {
-    std::string names;
-    for (const std::string& name : plan.renamed) {
-      names.append(names.empty() ? "" : ", ").append(name);
-    }
-    sentences.push_back("MSH holds names without quotation marks: changed are " + names);
+    sentences.push_back("MSH holds names without quotation marks: changed are " + list_text(plan.renamed));
   }
   if (plan.renumbers_groups) {
     sentences.push_back("MSH numbers groups from 1: those of " + plan.group_array + " with other numbers get new ones");

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/format_losses.h"
@@ -178,14 +179,6 @@ std::vector<std::uint8_t> types_of_nastran() {
   return types;
 }
 
-std::string joined_names(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) {
-    list.append(list.empty() ? "" : ", ").append(name);
-  }
-  return list;
-}
-
 std::vector<std::string> lost_in_nastran(const MeshDocument& document) {
   const WrittenProperties properties = written_properties(document);
   MeshDocument lost;
@@ -212,11 +205,11 @@ std::vector<std::string> lost_in_nastran(const MeshDocument& document) {
     sentences.push_back(
         "Nastran has names of properties in comments, of lines, faces and solids, without quotation "
         "marks: not written are " +
-        joined_names(names));
+        list_text(names));
   }
   if (!properties.renumbered.empty()) {
     sentences.push_back("Nastran numbers properties from 1 to 99999999, each of one dimension: changed are " +
-                        joined_names(properties.renumbered));
+                        list_text(properties.renumbered));
   }
   return sentences;
 }

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/errors.h"
@@ -25,15 +26,7 @@ namespace {
 template <class Names>
 std::string listed_nastran_names(const Names& names) {
   constexpr std::size_t most_listed = 12;
-  std::string list;
-  std::size_t count = 0;
-  for (const std::string& name : names) {
-    if (count++ == most_listed) {
-      return list + ", ...";
-    }
-    list.append(list.empty() ? "" : ", ").append(trismooth::quoted(name));
-  }
-  return list;
+  return first_of_list(names, most_listed, trismooth::quoted);
 }
 
 CellList make_nastran_cells(const NastranModel& model, const PointIds& ids) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/text/blanks.h"
 
 namespace trismooth {
@@ -36,7 +37,7 @@ std::uint8_t obj_cell_type(std::size_t least, std::size_t vertices) {
 
 void append_name(std::string& name, std::string_view line) {
   for (const std::string_view word : words_of(line)) {
-    name.append(name.empty() ? "" : " ").append(word);
+    add_to_list(name, word, " ");
   }
 }
 
@@ -51,7 +52,7 @@ void ObjStatements::move_to(MeshDocument& document) {
   groups_.move_to(document.cell_arrays, "group", document.cells.size());
   std::string list = has_colours_or_weights_ ? "vertex colours or weights" : "";
   for (const std::string& keyword : others_) {
-    list.append(list.empty() ? "" : ", ").append(keyword);
+    add_to_list(list, keyword);
   }
   if (!list.empty()) {
     document.notes.push_back("Kept in OBJ output only: " + list + ".");

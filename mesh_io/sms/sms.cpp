@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/flat_points.h"
@@ -112,10 +113,10 @@ std::vector<std::string> lost_material_names(const CellGroups& groups) {
   for (const CellGroup& group : groups.groups) {
     const auto found = written.find(group.number);
     if (!group.name.empty() && (found == written.end() || found->second != group.name)) {
-      lost.append(lost.empty() ? "" : ", ").append(group.name);
+      add_to_list(lost, group.name);
     }
     if (group.dimension == 1 && group.name.empty() && found != written.end()) {
-      named.append(named.empty() ? "" : ", ").append(std::to_string(group.number) + " (" + found->second + ")");
+      add_to_list(named, std::to_string(group.number) + " (" + found->second + ")");
     }
   }
   std::vector<std::string> sentences;
@@ -138,7 +139,7 @@ std::vector<std::string> lost_set_names(const MeshDocument& document) {
   for (const NamedSet& set : document.point_sets) {
     number += set.members.empty() ? 0 : 1;
     if (set.members.empty() || set.name != "nodestring " + std::to_string(number)) {
-      lost.append(lost.empty() ? "" : ", ").append(set.name.empty() ? "(no name)" : set.name);
+      add_to_list(lost, shown_name(set));
     }
   }
   return lost.empty() ? std::vector<std::string>{}

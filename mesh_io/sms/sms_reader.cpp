@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/document/point_ids.h"
@@ -209,16 +210,8 @@ class SmsReader {
     }
     if (!other_cards_.empty()) {
       constexpr std::size_t most_named = 8;
-      std::string names;
-      std::size_t count = 0;
-      for (const std::string& card : other_cards_) {
-        if (++count > most_named) {
-          names += ", ...";
-          break;
-        }
-        names.append(names.empty() ? "" : ", ").append(trismooth::quoted(card));
-      }
-      document_.notes.push_back("Cards that are kept in 2dm output only: " + names + ".");
+      document_.notes.push_back("Cards that are kept in 2dm output only: " +
+                                first_of_list(other_cards_, most_named, trismooth::quoted) + ".");
     }
   }
 

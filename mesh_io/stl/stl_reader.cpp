@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
@@ -118,7 +119,7 @@ class TextReader {
     std::string names;
     expect("solid");
     do {
-      names.append(names.empty() ? "" : ", ").append(quoted(trimmed(scanner_.next_line())));
+      add_to_list(names, quoted(trimmed(scanner_.next_line())));
       if (solids == 0) {
         read_plain_facets();
       }
@@ -249,13 +250,7 @@ class TextReader {
   }
 
   /// Those that were passed over, for a note.
-  std::string unknown_words() const {
-    std::string list;
-    for (const std::string_view word : unknown_) {
-      list.append(list.empty() ? "" : ", ").append(quoted(word));
-    }
-    return list;
-  }
+  std::string unknown_words() const { return list_text(unknown_, trismooth::quoted); }
 
   static constexpr std::size_t most_words_named = 8;
 

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
@@ -344,7 +345,7 @@ class Su2Reader {
                      : keyword.find("PERIODIC") != keyword.npos ? "periodic boundaries"
                                                                 : keyword);
     if (other_sections_.insert(name).second) {
-      other_list_.append(other_list_.empty() ? "" : ", ").append(name);
+      add_to_list(other_list_, name);
     }
   }
 

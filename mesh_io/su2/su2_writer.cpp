@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/cells/boundary_edges.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/flat_points.h"
@@ -99,10 +100,7 @@ std::vector<std::string> describe_markers(const Su2Markers& markers) {
   std::string renamed;
   for (const Su2Marker& marker : markers.all) {
     if (!marker.wanted_name.empty()) {
-      renamed.append(renamed.empty() ? "" : ", ")
-          .append(trismooth::quoted(marker.wanted_name))
-          .append(" is ")
-          .append(marker.name);
+      add_to_list(renamed, trismooth::quoted(marker.wanted_name) + " is " + marker.name);
     }
   }
   if (!renamed.empty()) {

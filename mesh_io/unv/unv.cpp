@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/format_losses.h"
@@ -257,14 +258,6 @@ std::vector<std::uint8_t> types_of_unv() {
   return types;
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-  std::string all;
-  for (const std::string& text : texts) {
-    all.append(all.empty() ? "" : ", ").append(text);
-  }
-  return all;
-}
-
 std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   const CellGroups groups = find_cell_groups(document);
   MeshDocument lost;
@@ -278,7 +271,7 @@ std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   std::vector<std::string> changed;
   (void)written_groups(document, groups, written_elements(document.cells), &changed);
   if (!changed.empty()) {
-    sentences.push_back("UNV numbers groups from 1 on, each number once: changed are " + joined(changed));
+    sentences.push_back("UNV numbers groups from 1 on, each number once: changed are " + list_text(changed));
   }
   std::vector<std::string> renamed;
   const auto compare = [&renamed](const std::string& name) {
@@ -290,7 +283,7 @@ std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   std::ranges::for_each(document.cell_sets, compare, &NamedSet::name);
   std::ranges::for_each(document.point_sets, compare, &NamedSet::name);
   if (!renamed.empty()) {
-    sentences.push_back("UNV has names on a line, without blanks around them: changed are " + joined(renamed));
+    sentences.push_back("UNV has names on a line, without blanks around them: changed are " + list_text(renamed));
   }
   return sentences;
 }

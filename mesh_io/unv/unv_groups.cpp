@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
+
 namespace trismooth {
 
 namespace {
@@ -132,7 +134,7 @@ void add_unv_groups(std::vector<UnvGroup> groups, const PointIds& nodes, const P
       group.name = "group " + std::to_string(group.number);
     }
     if (names_others(group.nodes, nodes) || names_others(group.elements, elements)) {
-      with_others.append(with_others.empty() ? "" : ", ").append(group.name);
+      add_to_list(with_others, group.name);
     }
     if (std::vector<std::int32_t> points = places_of(group.nodes, nodes); !points.empty()) {
       document.point_sets.push_back({group.name, std::move(points)});

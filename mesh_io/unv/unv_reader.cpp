@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/document/point_ids.h"
@@ -370,8 +371,7 @@ class UnvReader {
           names += ", ...";
           break;
         }
-        names.append(names.empty() ? "" : ", ")
-            .append(std::to_string(descriptor) + " with " + counted(nodes, "node", "nodes"));
+        add_to_list(names, std::to_string(descriptor) + " with " + counted(nodes, "node", "nodes"));
       }
       document_.notes.push_back("Elements of descriptors that are not known hold their nodes: " + names + ".");
     }
@@ -382,7 +382,7 @@ class UnvReader {
           names += ", ...";
           break;
         }
-        names.append(names.empty() ? "" : ", ").append(number);
+        add_to_list(names, number);
       }
       document_.notes.push_back("What the data sets " + names + " say is kept in UNV output only.");
     }

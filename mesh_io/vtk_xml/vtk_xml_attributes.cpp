@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -128,7 +129,7 @@ std::string unknown_vtk_file_attributes(const XmlElement& root) {
   std::string names;
   for (const auto& [attribute, value] : root.attributes) {
     if (!is_one_of(of_file, attribute)) {
-      names += (names.empty() ? "" : ", ") + trismooth::quoted(attribute);
+      add_to_list(names, trismooth::quoted(attribute));
     }
   }
   return names;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
@@ -25,7 +26,7 @@ Value choose(const std::filesystem::path& path, const XmlElement& element, std::
     if (*text == name) {
       return value;
     }
-    known += (known.empty() ? "" : ", ") + std::string(name);
+    add_to_list(known, name);
   }
   throw ReadError(
       path, element.line,

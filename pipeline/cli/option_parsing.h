@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "trismooth/base/enum_text.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/base/text/suggestion.h"
 
 namespace trismooth {
@@ -55,11 +56,8 @@ auto parse_list(std::string_view text, const Parse& parse) {
 /// The values of an enumeration as help shows them: "a|b".
 template <class Enum>
 std::string alternatives() {
-  std::string list;
-  for (const auto& [value, text] : EnumText<Enum>::texts) {
-    list.append(list.empty() ? "" : "|").append(text);
-  }
-  return list;
+  return list_text(
+      EnumText<Enum>::texts, [](const auto& each) { return each.second; }, "|");
 }
 
 /// The value of a text, as parse_enum(); where there is none, the message ends with what may have been meant.

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/base/text/plain_name.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/region_names.h"
@@ -139,10 +140,7 @@ std::vector<std::size_t> places_of(const std::string& name, std::span<const Tria
     find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
   }
   if (places.empty()) {
-    std::string known;
-    for (const TriangleValues& array : arrays) {
-      known.append(known.empty() ? "" : ", ").append(array.name);
-    }
+    const std::string known = list_text(arrays, &TriangleValues::name);
     throw std::invalid_argument(std::string(owner.has) + " no cell array '" + name + "' to take regions from; " +
                                 std::string(owner.it_has) + ": " + (known.empty() ? "none" : known));
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/pipeline/input/inner_edges.h"
 #include "trismooth/pipeline/input/value_names.h"
 #include "trismooth/pipeline/input/value_numbers.h"
@@ -152,11 +153,7 @@ class RegionFinder {
   }
 
   std::string name_of_region(std::int32_t triangle, bool with_values) const {
-    std::string name;
-    for (const Candidate* const candidate : obeyed_) {
-      name.append(candidate == obeyed_.front() ? "" : ", ").append(text_of(*candidate, triangle, with_values));
-    }
-    return name;
+    return list_text(obeyed_, [&](const Candidate* candidate) { return text_of(*candidate, triangle, with_values); });
   }
 
   /// The value of a triangle, or what it is called; of one that is listed with several, all of them.

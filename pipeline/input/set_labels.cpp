@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "trismooth/base/text/digits.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/base/text/plain_name.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
@@ -87,11 +88,7 @@ std::string first_of(std::span<const std::string> texts) {
     return "none";
   }
   const auto listed = texts.first(std::min(texts.size(), most_listed));
-  std::string list;
-  for (const std::string& text : listed) {
-    list.append(list.empty() ? "" : ", ").append(text);
-  }
-  return list + (listed.size() < texts.size() ? " and more" : "");
+  return list_text(listed) + (listed.size() < texts.size() ? " and more" : "");
 }
 
 }  // namespace

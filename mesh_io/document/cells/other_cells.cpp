@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 
 namespace trismooth {
 
@@ -56,7 +57,7 @@ std::string describe_other_cells(const CellList& cells, std::span<const std::uin
   std::string text;
   for (std::size_t type = 0; type < counts.size(); ++type) {
     if (counts[type] > 0) {
-      text.append(text.empty() ? "" : ", ").append(describe(counts[type], type));
+      add_to_list(text, describe(counts[type], type));
     }
   }
   return text;
