@@ -26,7 +26,7 @@ Triangle ascending(const Triangle& triangle) {
   return {low, a ^ b ^ c ^ low ^ high, high};
 }
 
-/// The same for copies of a triangle.
+/// Which copies of a triangle share: a key of its corners, in any order.
 std::uint64_t print_of(const Triangle& triangle, std::uint64_t seed) {
   const auto [low, middle, high] = ascending(triangle);
   constexpr std::uint64_t odd = 0xd6e8feb86659fd93U;

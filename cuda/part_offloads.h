@@ -11,7 +11,7 @@ namespace trismooth::cuda {
 /// parts than devices. Throws DeviceError where there is none.
 std::unique_ptr<SweepOffloads> part_offloads(const MeshPart& part);
 
-/// The same on the device of that number.
+/// Makes the sweeps of any part on the device of that number. Throws DeviceError where there is none.
 std::unique_ptr<SweepOffloads> part_offloads_on(int device);
 
 }  // namespace trismooth::cuda

@@ -46,7 +46,7 @@ class OriginalFile {
   /// Whether write() can add arrays.
   virtual bool takes_added_arrays() const { return false; }
 
-  /// The same as write() on this thread alone.
+  /// write() on this thread alone.
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays) const;
 };

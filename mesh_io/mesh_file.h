@@ -29,7 +29,7 @@ struct FileOptions {
 /// Throws std::invalid_argument for a number of threads out of range.
 MeshDocument read_mesh(const std::filesystem::path& path, const FileOptions& options);
 
-/// The same on that many threads, of the format that path and content say.
+/// read_mesh() on that many threads, of the format that path and content say.
 MeshDocument read_mesh(const std::filesystem::path& path, int threads = 1);
 
 /// Arrays to add to what a document holds, where the target takes_added_arrays(). Where any is added, annotations of an
@@ -49,7 +49,7 @@ struct AddedArrays {
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
                 const FileOptions& options);
 
-/// The same on that many threads, in the format that the path and the document say.
+/// write_mesh() on that many threads, in the format that the path and the document say.
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added = {},
                 int threads = 1);
 

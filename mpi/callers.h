@@ -107,7 +107,7 @@ class Callers {
   ByRank<std::int32_t> to_owners_;
   ByRank<std::int32_t> from_callers_;
   std::vector<std::int64_t> to_counts_;    ///< lengths of the lists
-  std::vector<std::int64_t> from_counts_;  ///< likewise
+  std::vector<std::int64_t> from_counts_;  ///< lengths of those
 };
 
 }  // namespace trismooth::mpi

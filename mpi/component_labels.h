@@ -25,7 +25,7 @@ struct ComponentJoin {
   std::int32_t other;
   std::uint8_t parity;  ///< 1 where their lowest triangles are listed against each other
 
-  /// The same on both sides. Local.
+  /// A key that both ranks give the join. Local.
   [[nodiscard]] std::tuple<std::int32_t, std::int32_t, std::uint8_t> key(bool own_first) const {
     return own_first ? std::tuple(own, other, parity) : std::tuple(other, own, parity);
   }

@@ -74,7 +74,7 @@ class OverlapSmoother {
   SmoothingResult smoothed_in_pieces(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
   /// By rank 0, which has all.
   SmoothingResult smoothed_here(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
-  /// The same where that was not known before.
+  /// By rank 0, where that was not known before: it gets all then.
   SmoothingResult smoothed_gathered(std::span<Point2<double>> mine, Storage stored);
 
   std::shared_ptr<const Communicator> communicator_;

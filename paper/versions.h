@@ -56,7 +56,7 @@ std::vector<Case> cases_of(std::span<const Version> versions);
 
 /// "serial CPU", "optimised CPU", "GPU-AoS", "resident".
 std::string name_of(const Case& what);
-/// The same without the layout: "GPU version".
+/// The name of a version without its layout: "GPU version".
 std::string name_of(Version version);
 /// "A", "B".
 std::string_view letter_of(Form form);

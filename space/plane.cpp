@@ -370,7 +370,7 @@ Vector3d seen_from(const Plane& plane) {
   return plane.aligned ? Vector3d::Unit(plane.axes[0]).cross(Vector3d::Unit(plane.axes[1])) : plane.u.cross(plane.v);
 }
 
-/// The same plane, seen from its other side.
+/// The plane, seen from its other side.
 void turn_over(Plane& plane) {
   std::swap(plane.axes[0], plane.axes[1]);
   std::swap(plane.slope.x, plane.slope.y);

@@ -67,7 +67,7 @@ struct PlaneFit {
 PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> counts, const CellList& cells,
                    Storage storage, Workers& workers);
 
-/// The same on the calling thread.
+/// fit_plane() on the calling thread, of points that all count.
 PlaneFit fit_plane(std::span<const double> xyz, std::span<const std::uint8_t> counts, const CellList& cells,
                    Storage storage = Storage::float64);
 

@@ -53,7 +53,7 @@ class Positions {
     return stored_point(frame_, {static_cast<double>(working.x), static_cast<double>(working.y)}, storage_);
   }
   __device__ Point2<double> stored(std::int32_t v) const { return stored(working_.load(v)); }
-  /// The same in the local frame: what the guard evaluates.
+  /// Where the file would have it, in the local frame: what the guard evaluates.
   __device__ Point2<double> after(std::int32_t v, Point2<double> before) const {
     if (v >= free_count_) {
       return held_ == nullptr ? before : held_[v - free_count_];

@@ -29,7 +29,7 @@ struct LineVerdict {
 /// there are none.
 struct HeldView {
   Point2<double>* after = nullptr;       ///< of every vertex without a ring, in packed order, in the local frame
-  const std::int32_t* fan_of = nullptr;  ///< likewise: that of the vertex; -1: it does not slide
+  const std::int32_t* fan_of = nullptr;  ///< the fan of each of them; -1: it does not slide
   const std::int32_t* fans = nullptr;    ///< as SlideView
   const FanSide* sides = nullptr;
   /// Where its lines are not good the guard changes nothing, and where it is not good nothing is written. Null: the

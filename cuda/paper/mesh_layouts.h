@@ -135,7 +135,7 @@ struct MeshSoA {
   std::uint32_t* element_begins;
   bool* boundary;
   std::int32_t* triangle_vertices;  ///< corner i of triangle t at i triangle_count + t
-  T* triangle_quality;              ///< likewise
+  T* triangle_quality;              ///< of corner i of triangle t at i triangle_count + t
   const std::int32_t* neighbour_pool;
   const std::uint32_t* element_pool;
 

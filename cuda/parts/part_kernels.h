@@ -24,9 +24,9 @@ template <class T>
 struct PartBatch {
   SlottedRingsView<std::int32_t> rings;  ///< of the free vertices
   PointArray<T> from;
-  PointArray<T> to;           ///< the same in Form B
+  PointArray<T> to;           ///< `from` in Form B
   std::uint32_t* marks;       ///< of this sweep
-  std::uint32_t* next_marks;  ///< of the next one; the same in Form B
+  std::uint32_t* next_marks;  ///< of the next one; `marks` in Form B
   std::int32_t begin;
   std::int32_t end;
   T tolerance;

@@ -30,7 +30,7 @@ class Pieces {
       std::memcpy(bytes_.data() + begin, values.data(), values.size() * sizeof(T));
     }
   }
-  /// The same of what `changed` makes of each value.
+  /// Writes what `changed` makes of each value.
   template <class T, class Change>
   void write(std::size_t begin, const std::vector<T>& values, const Change& changed) {
     for (std::size_t i = 0; i < values.size(); ++i) {

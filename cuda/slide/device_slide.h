@@ -66,7 +66,7 @@ class DeviceSlide {
     is_judged_by_host_ = true;
     return put_back(before, reverted, [](SlideGuard& guard, auto& back) { return guard.settle(back); });
   }
-  /// The same of triangles without a free vertex: see SlideGuard::settle_triangles().
+  /// settle() of triangles without a free vertex: see SlideGuard::settle_triangles().
   template <class Reverted>
   std::int64_t settle_triangles(const Point2<double>* before, double threshold_of_others, const Reverted& reverted) {
     if (local_.held_triangles().empty()) {
@@ -132,11 +132,11 @@ class DeviceSlide {
   PackedSlidable slidable_;
   std::optional<DeviceSlideTriangles> triangles_;  ///< always there, from the constructor on
   DeviceBuffer<std::int32_t> vertices_;            ///< of the Slidable: their numbers in the mesh
-  DeviceBuffer<std::int32_t> numbers_;             ///< likewise: packed
+  DeviceBuffer<std::int32_t> numbers_;             ///< their packed numbers
   std::vector<std::int32_t> by_packed_;      ///< their numbers in it, ascending by packed number; found when needed
   DeviceBuffer<Point2<double>> points_;      ///< one for each of them
   DeviceBuffer<Point2<double>> held_after_;  ///< HeldView
-  DeviceBuffer<std::int32_t> fan_of_;        ///< likewise
+  DeviceBuffer<std::int32_t> fan_of_;        ///< HeldView
   DeviceBuffer<FanTarget> targets_;
   DeviceBuffer<Point2<double>> stored_slid_;  ///< SlidPoints
 

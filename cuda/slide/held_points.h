@@ -25,7 +25,7 @@ void find_fans(const Context& context, const DeviceBuffer<std::int32_t>& numbers
 /// after[i] = before[free_count + i].
 void copy_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
                Point2<double>* after);
-/// The same, and after[numbers[i] - free_count] = slid[i] for numbers from free_count on.
+/// after[i] = before[free_count + i], but after[numbers[i] - free_count] = slid[i] for numbers from free_count on.
 void place_held(const Context& context, const Point2<double>* before, std::int32_t free_count, std::int32_t held_count,
                 const DeviceBuffer<Point2<double>>& slid, const DeviceBuffer<std::int32_t>& numbers,
                 Point2<double>* after);

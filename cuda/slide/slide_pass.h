@@ -20,8 +20,8 @@ struct SlideWork {
   PointArray<T> first;          ///< all packed vertices as the sweeps left them, if LoopState::current is 0...
   PointArray<T> second;         ///< ...and if it is 1. Both are to know where vertices slide; may be the same
   const FanTarget* targets;     ///< of the mean-ratio method, else null
-  std::uint32_t* first_marks;   ///< of the free vertices that the next sweep evaluates, likewise; null: there are none
-  std::uint32_t* second_marks;  ///< likewise
+  std::uint32_t* first_marks;   ///< of the free vertices that the next sweep evaluates, if current is 0; null: none
+  std::uint32_t* second_marks;  ///< those if it is 1
   std::int32_t free_count;
   T tolerance;
 };

@@ -23,7 +23,7 @@ class ListDirectedLines {
   /// The next value of the line. Fails where the line ends or says anything else.
   std::int64_t next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest);
   double next_number(std::string_view what);
-  /// The same, or not-a-number, which stands for no value.
+  /// The next number of the line, or not-a-number, which stands for no value.
   double next_number_or_none(std::string_view what);
 
   /// The next value of the line if it is a whole number; nothing, and nothing passed, if it is anything else.

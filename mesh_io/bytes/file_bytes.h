@@ -36,7 +36,7 @@ FileBytes read_file_bytes(const std::filesystem::path& path, const FileWorkers& 
 /// What comes on standard input, to its end. Throws ReadError, also where memory does not suffice.
 FileBytes read_standard_input();
 
-/// The same as read_file_bytes() on this thread alone.
+/// read_file_bytes() on this thread alone.
 FileBytes read_file_bytes(const std::filesystem::path& path);
 
 }  // namespace trismooth

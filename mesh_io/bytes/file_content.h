@@ -60,7 +60,7 @@ class WrittenAside {
 WrittenAside write_content_aside(const std::filesystem::path& path, const FileWorkers& workers,
                                  const std::function<void(const std::filesystem::path&)>& write);
 
-/// The same for a mesh of two files: `write` is given a path for each, with the extensions of `path` and of
+/// write_content_aside() of a mesh of two files: `write` is given a path for each, with the extensions of `path` and of
 /// `partner_of(path)`. Throws WriteError, also for standard output, pipes and devices, and names that ask for
 /// compression.
 WrittenAside write_two_files_aside(const std::filesystem::path& path,

@@ -25,7 +25,7 @@ class InputFile {
 
   /// Reads up to `count` bytes from `offset` on; fewer where the file ends. Throws ReadError.
   std::size_t read_at(std::byte* bytes, std::size_t count, std::size_t offset) const;
-  /// The same from where the last call of it ended: for pipes too.
+  /// Reads up to `count` bytes from where its last call ended: for pipes too. Throws ReadError.
   std::size_t read_on(std::byte* bytes, std::size_t count) const;
   /// The bytes [begin, end), fewer where the file ends.
   FileBytes read_range(std::size_t begin, std::size_t end) const;

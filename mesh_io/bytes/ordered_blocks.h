@@ -32,7 +32,7 @@ class OrderedBlocks {
                       }});
   }
 
-  /// The same for rows 0 to `count` - 1 in blocks of them: `encode`(begin, end, bytes) appends those from `begin` to
+  /// write() of rows 0 to `count` - 1 in blocks of them: `encode`(begin, end, bytes) appends those from `begin` to
   /// before `end` to `bytes`. A row takes about `row_bytes`, which decides on the size of the blocks and on nothing
   /// else.
   template <class Encode>

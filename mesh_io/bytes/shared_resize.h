@@ -45,7 +45,7 @@ void shared_resize(std::vector<T>& values, std::size_t size, Workers& workers) {
   values.resize(size);
 }
 
-/// The same for two vectors, side by side: one thread alone fills a vector.
+/// shared_resize() of two vectors, side by side: one thread alone fills a vector.
 template <class A, class B>
 void shared_resize(std::vector<A>& a, std::size_t size_of_a, std::vector<B>& b, std::size_t size_of_b,
                    Workers& workers) {

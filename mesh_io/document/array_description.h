@@ -8,7 +8,7 @@
 
 namespace trismooth {
 
-/// The same description, which may be null, with one role more.
+/// That description, which may be null, with one role more.
 std::shared_ptr<const ArrayDescription> with_role(const ArrayDescription* description, std::string role);
 
 /// True for the ranges that VTK keeps beside numbers. No document holds them: they are those of the numbers before the

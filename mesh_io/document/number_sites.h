@@ -73,15 +73,18 @@ struct ColumnValues {
 void write_patched(const std::filesystem::path& path, std::string_view bytes, const NumberSites& sites,
                    std::span<const ColumnValues> values, std::string_view suffix, const FileWorkers& workers);
 
-/// The same for several lists of sites, each wholly behind the one before, with the values of each.
+/// Sites of numbers with what they are to be.
+
 struct PatchedSites {
   const NumberSites& sites;
   std::vector<ColumnValues> values;
 };
+
+/// write_patched() of several lists of sites, each wholly behind the one before.
 void write_patched(const std::filesystem::path& path, std::string_view bytes, std::span<const PatchedSites> lists,
                    std::string_view suffix, const FileWorkers& workers);
 
-/// The same for sites of x, y and z: `points` has them of every vertex.
+/// write_patched() of sites of x, y and z: `points` has them of every vertex.
 void write_patched(const std::filesystem::path& path, std::string_view bytes, const NumberSites& sites,
                    std::span<const double> points, std::string_view suffix, const FileWorkers& workers);
 

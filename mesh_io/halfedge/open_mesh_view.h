@@ -21,7 +21,7 @@ struct OpenMeshView {
   std::variant<NumberRows<float>, NumberRows<double>> points;
 };
 
-/// The same of a mesh that is left as it is.
+/// OpenMeshView of a mesh that is left as it is.
 struct ConstOpenMeshView {
   const OpenMesh::PolyConnectivity* mesh = nullptr;
   std::variant<NumberRows<const float>, NumberRows<const double>> points;

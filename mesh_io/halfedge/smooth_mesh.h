@@ -41,11 +41,11 @@ class [[nodiscard]] MeshPlan {
   template <class Mesh>
   MeshPlan(const Mesh& mesh, const MeshConstraints& constraints, const SmoothingOptions& options = {})
       : MeshPlan(open_mesh::view_of<ConstOpenMeshView>(mesh), constraints, options) {}
-  /// The same without constraints: fixed is what the mesh itself holds.
+  /// A plan without constraints: fixed is what the mesh itself holds.
   template <class Mesh>
   requires(!std::same_as<Mesh, MeshPlan>) explicit MeshPlan(const Mesh& mesh, const SmoothingOptions& options = {})
       : MeshPlan(mesh, MeshConstraints{}, options) {}
-  /// The same of a mesh that is viewed already.
+  /// A plan of a mesh that is viewed already.
   MeshPlan(const ConstOpenMeshView& mesh, const MeshConstraints& constraints, const SmoothingOptions& options);
   MeshPlan(MeshPlan&&) noexcept;
   MeshPlan& operator=(MeshPlan&&) noexcept;
@@ -82,7 +82,7 @@ template <class Mesh>
 MeshPlan plan(const Mesh& mesh, const MeshConstraints& constraints, const SmoothingOptions& options = {}) {
   return {open_mesh::view_of<ConstOpenMeshView>(mesh), constraints, options};
 }
-/// The same without constraints.
+/// plan() without constraints: fixed is what the mesh itself holds.
 template <class Mesh>
 MeshPlan plan(const Mesh& mesh, const SmoothingOptions& options = {}) {
   return {open_mesh::view_of<ConstOpenMeshView>(mesh), MeshConstraints{}, options};
@@ -94,7 +94,7 @@ template <class Mesh>
 SmoothingResult smooth(Mesh& mesh, const MeshConstraints& constraints, const SmoothingOptions& options = {}) {
   return smooth_open_mesh(open_mesh::view_of<OpenMeshView>(mesh), constraints, options);
 }
-/// The same without constraints.
+/// smooth() without constraints: fixed is what the mesh itself holds.
 template <class Mesh>
 SmoothingResult smooth(Mesh& mesh, const SmoothingOptions& options = {}) {
   return smooth_open_mesh(open_mesh::view_of<OpenMeshView>(mesh), MeshConstraints{}, options);

@@ -81,7 +81,7 @@ inline bool inp_goes_on(std::string_view line) {
 /// A label as people wrote it: without quotation marks, or else without blanks.
 std::string inp_label(std::string_view text);
 
-/// The same as labels are compared: in upper case but for those in quotation marks.
+/// A label as labels are compared: inp_label() in upper case, but for those in quotation marks.
 std::string inp_key(std::string_view text);
 
 /// Throws ReadError at the line of the byte at `offset`.

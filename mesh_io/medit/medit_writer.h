@@ -11,7 +11,7 @@ namespace trismooth {
 /// or higher where the numbers or the size of a binary file need it. Throws WriteError.
 void write_medit(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
 
-/// The same of a document that was read from a Medit file: with all its cells. Throws WriteError.
+/// write_medit() of a document that was read from a Medit file: with all its cells. Throws WriteError.
 void write_medit_in_other_encoding(const std::filesystem::path& path, const MeshDocument& document,
                                    const FileWorkers& workers);
 

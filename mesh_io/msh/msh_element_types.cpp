@@ -100,7 +100,7 @@ struct NumberedType {
 constexpr std::array<int, 8> curves{26, 27, 28, 62, 63, 64, 65, 66};
 constexpr std::array<int, 8> triangles{21, 23, 25, 42, 43, 44, 45, 46};
 constexpr std::array<int, 8> quads{36, 37, 38, 47, 48, 49, 50, 51};
-/// The same without vertices inside.
+/// Those of the sides alone, without vertices inside.
 constexpr std::array<int, 8> triangle_boundaries{20, 22, 24, 52, 53, 54, 55, 56};
 constexpr std::array<int, 8> quad_boundaries{39, 40, 41, 57, 58, 59, 60, 61};
 /// Of one vertex: order 0.

@@ -30,7 +30,7 @@ void write_msh_field(OrderedBlocks& blocks, const MshHeader& header, const MshFi
 /// The name as a file can have it: without quotation marks, on one line.
 std::string plain_msh_name(std::string_view name);
 
-/// The same between quotation marks.
+/// plain_msh_name() between quotation marks.
 std::string quoted_msh_name(std::string_view name);
 
 }  // namespace trismooth

@@ -34,7 +34,7 @@ struct MshNodes {
   MshTags tags;
   std::vector<MshNodeList> lists;       ///< of all nodes, in the file's order
   std::vector<std::int32_t> on_points;  ///< nodes of points of the geometry, ascending, where the file says so
-  std::vector<std::int32_t> on_curves;  ///< likewise
+  std::vector<std::int32_t> on_curves;  ///< nodes of its curves
   bool any_on_surfaces = false;         ///< some node is said to be of a surface or a volume
 };
 

@@ -129,7 +129,8 @@ class MshRowTags {
     });
   }
 
-  /// The same where read_rows(type) reads all rows, once or twice: it takes the tags by Part<type of a tag>.
+  /// Reads rows and appends their tags to `tags`: read_rows(type) reads all of them, once or twice, and takes the tags
+  /// by Part<type of a tag>. False where anything is unusual: nothing has changed then.
   template <class ReadRows>
   bool read(MshRows& rows, const MshInput& input, MshTags& tags, const ReadRows& read_rows) {
     return visit_tag_type(kind_, [&](auto type) {

@@ -44,7 +44,7 @@ class MshRows {
     return end.has_value();
   }
 
-  /// The same of binary files alone: `numbers` are BinaryNumbers.
+  /// read() of a binary file: `numbers` are BinaryNumbers.
   template <class Body>
   bool read_binary(const MshRowLayout& layout, const Body& body) {
     if (workers_.part_bytes == FileWorkers::serial || layout.rows == 0 ||
@@ -62,7 +62,7 @@ class MshRows {
     return all;
   }
 
-  /// The same for rows of a text that are a list each (see read_plain_lists).
+  /// read() of rows of a text that are a list each (see read_plain_lists).
   template <class MakeRoom, class ReadPart>
   bool read_lists(std::size_t rows, const PlainListShape& shape, const MakeRoom& make_room, const ReadPart& read_part) {
     const auto end = read_plain_lists(plain_, input_.offset(), rows, shape, true, make_room, read_part);

@@ -27,7 +27,7 @@ namespace trismooth {
 /// A number of a PLY file.
 struct PlyNumber {
   double value = 0;        ///< exact but for 64-bit integers, which may be rounded
-  std::int64_t whole = 0;  ///< the same of an integer type, exact; of uint64 less 2^64 where it is 2^63 or more
+  std::int64_t whole = 0;  ///< the value of an integer type, exact; of uint64 less 2^64 where it is 2^63 or more
 
   /// The digits of a number of an integer type.
   std::string text() const {

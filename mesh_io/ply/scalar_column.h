@@ -24,10 +24,10 @@ class ScalarColumn {
   /// Sets a row to `value`, which the column's type must be able to hold: no check.
   void store(std::size_t row, double value);
 
-  /// The same for a column of a 64-bit integer type; of uint64, numbers of 2^63 or more are given less 2^64.
+  /// Sets a row of a column of a 64-bit integer type; of uint64, numbers of 2^63 or more are given less 2^64.
   void store_whole(std::size_t row, std::int64_t value);
 
-  /// The same for a number of the column's own type.
+  /// Sets a row to a number of the column's own type.
   template <class T>
   void put(std::size_t row, T value) {
     std::memcpy(bytes_.data() + row * sizeof(value), &value, sizeof(value));

@@ -20,7 +20,7 @@ class SmsLine {
   /// The next word as a number; fails where there is none.
   std::int64_t next_integer(std::string_view what);
   double next_number(std::string_view what);
-  /// The same, or not-a-number, which stands for no value.
+  /// The next word as a number, or not-a-number, which stands for no value.
   double next_number_or_none(std::string_view what);
 
   /// Whether the word that was read last stood in quotation marks.

@@ -17,8 +17,8 @@ class PointWelder {
  public:
   PointWelder();
 
-  /// The same for equal points. Its lowest bits choose the slot in a welder's table: take the highest ones to deal out
-  /// points to several welders.
+  /// A number of a point, which equal points share. Its lowest bits choose the slot in a welder's table: take the
+  /// highest ones to deal out points to several welders.
   static std::uint64_t hash_of(const std::array<double, 3>& point);
 
   /// The number of the point. Coordinates must be finite, distinct points no more than 2^31 - 1: no check.

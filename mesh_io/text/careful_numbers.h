@@ -55,7 +55,7 @@ class CarefulNumbers {
     scanner_.fail(message(scanner_.text().substr(token_offset(), scanner_.offset() - token_offset())));
   }
 
-  /// The same at the next token, which is not `what` is expected; message(token) is what is wrong.
+  /// Throws ReadError at the line of the next token, where `what` is expected; message(token) is what is wrong with it.
   template <class Message>
   [[noreturn]] bool fail_at_next(std::string_view what, const Message& message) {
     const std::string_view token = scanner_.next_token(what);

@@ -20,10 +20,10 @@ extern template std::optional<double> parse_number(std::string_view);
 /// The whole number that `token` states as a whole, or nothing; also nothing beyond the range of 64 bits.
 std::optional<std::int64_t> parse_integer(std::string_view token);
 
-/// The same from 0 to 2^64 - 1.
+/// The whole number from 0 to 2^64 - 1 that `token` states as a whole, or nothing.
 std::optional<std::uint64_t> parse_unsigned(std::string_view token);
 
-/// The same for any type of integer of 8 to 64 bits: nothing beyond its range.
+/// The whole number that `token` states as a whole, of any type of integer of 8 to 64 bits: nothing beyond its range.
 template <class T>
 std::optional<T> parse_integer_as(std::string_view token);
 
@@ -53,7 +53,7 @@ std::size_t write_within(T value, std::size_t most, char* target);
 extern template std::size_t write_within(float, std::size_t, char*);
 extern template std::size_t write_within(double, std::size_t, char*);
 
-/// The same as write_within(), in that form.
+/// write_within() in that form.
 std::size_t write_within(double value, std::size_t most, NumberForm form, char* target);
 
 /// The value that the text of write_within() reads back to; the value itself where `most` is 0.

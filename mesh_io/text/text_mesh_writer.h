@@ -66,7 +66,8 @@ class TextMeshWriter {
     write_blocks<TextBlock>(count, format);
   }
 
-  /// The same with `format`(lines, i), which appends whole lines, or none, to `lines` (TextLines&). Throws WriteError.
+  /// Calls `format`(lines, i) for i = 0 to `count` - 1, on any worker, which appends whole lines, or none, to `lines`
+  /// (TextLines&). Throws WriteError.
   template <class Format>
   void write_lines(std::size_t count, const Format& format) {
     write_blocks<TextLines>(count, format);

@@ -10,7 +10,7 @@ bool is_triangle_elements(const std::filesystem::path& path);
 /// The other file of a mesh of Triangle: mesh.ele of mesh.node, and the other way round, in the same case of letters.
 std::filesystem::path triangle_partner(const std::filesystem::path& path);
 
-/// The same for a file to write. Throws WriteError for a path that ends with neither .node nor .ele.
+/// triangle_partner() of a file to write. Throws WriteError for a path that ends with neither .node nor .ele.
 std::filesystem::path triangle_output_partner(const std::filesystem::path& path);
 
 }  // namespace trismooth

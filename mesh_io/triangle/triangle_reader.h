@@ -22,8 +22,8 @@ struct TriangleFile {
 /// Throws ReadError for whatever breaks the rules; more rows than the counts declare too.
 MeshDocument read_triangle_files(TriangleFile nodes, TriangleFile elements, const FileWorkers& workers);
 
-/// The same for the file at `path`, whose bytes are `bytes`, and its partner beside it. Throws ReadError, also where
-/// that is missing.
+/// read_triangle_files() of the file at `path`, whose bytes are `bytes`, and its partner beside it. Throws ReadError,
+/// also where that is missing.
 MeshDocument read_triangle(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
 
 }  // namespace trismooth

@@ -69,7 +69,8 @@ class VtkLegacyInput {
   /// begin_values(), then all of them. `each` is what one of them is called, `what` if it is empty.
   template <class T>
   std::vector<T> read_values(std::uint64_t count, std::string_view what, std::string_view each = {});
-  /// The same for single bits, as 0 and 1: eight a byte in BINARY files, the first one in the highest bit.
+  /// begin_values(), then all of them as single bits, 0 and 1: eight a byte in BINARY files, the first one in the
+  /// highest bit.
   std::vector<std::uint8_t> read_bits(std::uint64_t count, std::string_view what);
 
   // It is careful numbers itself (see PlainSource).

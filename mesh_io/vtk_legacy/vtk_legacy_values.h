@@ -24,7 +24,7 @@ struct VtkLegacyChanges {
 std::vector<VtkLegacyChanges> changed_values(std::string_view bytes, const VtkLegacyLayout& layout,
                                              std::span<const DataArray> arrays);
 
-/// The same as edits of the file.
+/// What takes these changes into the file.
 std::vector<ByteEdit> edits_of(std::string_view bytes, const VtkLegacyChanges& changes);
 
 }  // namespace trismooth

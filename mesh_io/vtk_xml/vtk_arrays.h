@@ -28,7 +28,7 @@ vtkSmartPointer<vtkDataArray> make_vtk_array(ScalarType type, std::size_t compon
 
 /// A VTK array of the same name and description that views the numbers of `array`, which must outlive it. No copy.
 vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array);
-/// The same; what VTK cannot take of the description gives a sentence in `losses`.
+/// view_as_vtk_array() that tells what VTK cannot take of the description: a sentence each in `losses`.
 vtkSmartPointer<vtkDataArray> view_as_vtk_array(const DataArray& array, std::vector<std::string>& losses);
 
 /// A view of a VTK array's numbers with its description, which keeps that array alive; nothing for an array that does

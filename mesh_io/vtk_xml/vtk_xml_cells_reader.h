@@ -28,7 +28,8 @@ class VtkXmlCellsReader {
   /// and every index is one of a point. 32-bit indices where the file has no others. Throws ReadError.
   vtkSmartPointer<vtkCellArray> read_cells(const std::string& section, std::span<const std::uint64_t> counts);
 
-  /// The same for a group of vtkPolyData; every cell has as many vertices as the group asks for. Throws ReadError.
+  /// The cells of a group of vtkPolyData: read_cells(), where every cell has as many vertices as the group asks for.
+  /// Throws ReadError.
   vtkSmartPointer<vtkCellArray> read_group(PolyDataGroup group, std::span<const std::uint64_t> counts);
 
   /// The types of the cells in <Cells>; every cell has as many vertices as its type asks for. Throws ReadError.

@@ -42,10 +42,10 @@ class VtkXmlDecoder {
   void read_numbers(const XmlElement& array, ScalarType type, std::optional<std::uint64_t> count, MemoryBlock& numbers,
                     Surplus surplus = Surplus::noted);
 
-  /// The same for an array of bits: appends one byte, 0 or 1, for each of the first `count` bits.
+  /// Appends one byte, 0 or 1, for each of the first `count` bits of an array of bits. Throws ReadError.
   void read_bits(const XmlElement& array, std::uint64_t count, MemoryBlock& bits);
 
-  /// The same for an array of strings.
+  /// Appends the first `count` strings of an array of strings. Throws ReadError.
   void read_strings(const XmlElement& array, std::uint64_t count, std::vector<std::string>& strings);
 
   /// For an array that should hold nothing, since the file declares no rows for it: fails where it holds something, as

@@ -28,7 +28,7 @@ struct Piece {
   SharedNumbers cell_ids;                  ///< one a cell: its number in the file, ascending
   SharedNumbers triangle_ids;              ///< one a triangle of the mesh: its number in the file, ascending
   std::vector<std::uint8_t> held_by_sets;  ///< one a point, as MeshShare has it
-  std::vector<std::uint8_t> implied_by;    ///< likewise
+  std::vector<std::uint8_t> implied_by;    ///< one a point, as MeshShare has it
 
   bool is_ghost(std::size_t triangle) const { return ghost_cells[static_cast<std::size_t>(mesh.cells[triangle])] != 0; }
 };

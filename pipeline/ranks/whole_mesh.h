@@ -59,7 +59,7 @@ class WholeMesh {
   std::vector<RankVertex> vertices_;                    ///< of this rank, ascending by id
   std::vector<std::vector<std::int32_t>> vertices_of_;  ///< for each piece and point: its place in vertices_
   mpi::ByRank<std::int32_t> places_;                    ///< on rank 0: the points of the vertices of each rank
-  mpi::ByRank<std::uint8_t> is_taken_;                  ///< likewise: 1 where that rank says what the point has
+  mpi::ByRank<std::uint8_t> is_taken_;                  ///< on rank 0: 1 where that rank says what the point has
   std::vector<std::size_t> cell_order_;                 ///< on rank 0: of cells as they come; empty: they stay so
 };
 

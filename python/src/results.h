@@ -13,7 +13,7 @@ namespace trismooth::python {
 struct Outcome {
   SmoothingResult smoothing;
   std::optional<QualityReport> before;  ///< where it was asked for
-  std::optional<QualityReport> after;   ///< likewise
+  std::optional<QualityReport> after;   ///< where it was asked for
 };
 
 /// Makes the classes of results: Outcome, SweepRecord, SlidingResult, QualityReport, MetricSummary, WorstElement.

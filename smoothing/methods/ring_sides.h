@@ -91,7 +91,7 @@ struct SideTriangle {
   Point2<V> c;  ///< the side
   V doubled_area;
   V squares;    ///< the sum of the squared edge lengths
-  V in_metric;  ///< the same in the metric of the side
+  V in_metric;  ///< that sum in the metric of the side
   V pull_x;     ///< of the vertex on that: minus half its derivative
   V pull_y;
   EdgeTensor<V> stiffness;  ///< half its second derivative

@@ -22,7 +22,7 @@ constexpr std::uint8_t type_of_fixed_order(std::uint8_t type, std::size_t vertic
   }
 }
 
-/// The same, and polygons of three and four vertices are triangles and quadrilaterals.
+/// type_of_fixed_order(), and polygons of three and four vertices are triangles and quadrilaterals.
 constexpr std::uint8_t ordinary_type(std::uint8_t type, std::size_t vertices) {
   const bool is_small = type == cell_type::polygon && (vertices == 3 || vertices == 4);
   return is_small ? cell_type::of_face(vertices) : type_of_fixed_order(type, vertices);

@@ -24,7 +24,8 @@ class EncodedBytes {
   /// Copies the next `count` bytes to `bytes`.
   bool read(std::byte* bytes, std::size_t count);
 
-  /// The same to the end of `block`, by all workers. The block is `count` bytes longer then, in any case.
+  /// Copies the next `count` bytes to the end of `block`, by all workers. The block is that much longer then, in any
+  /// case.
   bool append_to(MemoryBlock& block, std::size_t count, const FileWorkers& workers);
 
   /// The next `count` bytes where they stand, for raw bytes only.
