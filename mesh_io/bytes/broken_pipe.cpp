@@ -1,6 +1,10 @@
 #include "trismooth/mesh_io/bytes/broken_pipe.h"
 
+#include <cerrno>
+#include <cstddef>
 #include <ctime>
+
+#include <unistd.h>
 
 namespace trismooth {
 
@@ -27,6 +31,19 @@ BrokenPipeIsError::~BrokenPipeIsError() {
     ::sigtimedwait(&signals, nullptr, &no_time);  // one that is pending is of our writes
     ::pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
   }
+}
+
+bool write_to_descriptor(int descriptor, std::string_view bytes) {
+  const BrokenPipeIsError this_thread;
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno != EINTR) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace trismooth

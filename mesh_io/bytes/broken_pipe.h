@@ -1,6 +1,7 @@
 #pragma once
 
 #include <csignal>
+#include <string_view>
 
 namespace trismooth {
 
@@ -16,5 +17,9 @@ class BrokenPipeIsError {
  private:
   sigset_t signals_before_{};
 };
+
+/// Writes all of that to an open descriptor. False, with errno, where it cannot; a pipe that nobody reads any more is
+/// an error. Any thread may call it.
+bool write_to_descriptor(int descriptor, std::string_view bytes);
 
 }  // namespace trismooth

@@ -62,14 +62,8 @@ void BufferedWriter::flush() {
 }
 
 void BufferedWriter::write_out(std::string_view bytes) {
-  const BrokenPipeIsError this_thread;  // which may be a worker
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-    if (written >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      fail();
-    }
+  if (!write_to_descriptor(descriptor_, bytes)) {
+    fail();
   }
 }
 

@@ -12,14 +12,8 @@
 namespace trismooth {
 
 void write_standard_output(std::string_view bytes) {
-  const BrokenPipeIsError this_thread;
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
-    if (written >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno != EINTR) {
-      throw WriteError("standard output", std::string("cannot be written: ") + std::strerror(errno));
-    }
+  if (!write_to_descriptor(STDOUT_FILENO, bytes)) {
+    throw WriteError("standard output", std::string("cannot be written: ") + std::strerror(errno));
   }
 }
 
