@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "trismooth/base/cell_list.h"
 
@@ -67,6 +68,24 @@ constexpr auto named_types = std::to_array<Named>({
     {"DCOUP2D", one_node},   {"DCOUP3D", one_node},
     {"JOINTC", two_nodes},   {"ITSUNI", two_nodes},
     {"ITSCYL", two_nodes},   {"STRI65", {cell_type::quadratic_triangle, 6}},
+});
+
+/// Types that are written for cells.
+constexpr auto inp_written_types = std::to_array<std::pair<std::uint8_t, std::string_view>>({
+    {cell_type::line, "T3D2"},
+    {cell_type::quadratic_edge, "T3D3"},
+    {cell_type::triangle, "CPS3"},
+    {cell_type::quad, "CPS4"},
+    {cell_type::quadratic_triangle, "CPS6"},
+    {cell_type::quadratic_quad, "CPS8"},
+    {cell_type::biquadratic_quad, "M3D9"},
+    {cell_type::tetrahedron, "C3D4"},
+    {cell_type::pyramid, "C3D5"},
+    {cell_type::wedge, "C3D6"},
+    {cell_type::hexahedron, "C3D8"},
+    {cell_type::quadratic_tetrahedron, "C3D10"},
+    {cell_type::quadratic_wedge, "C3D15"},
+    {cell_type::quadratic_hexahedron, "C3D20"},
 });
 
 std::uint8_t face_of(std::size_t nodes) {
@@ -154,38 +173,9 @@ InpElementType inp_element_type(std::string_view name) {
 }
 
 std::string_view inp_type_of_cell(std::uint8_t cell) {
-  switch (cell) {
-    case cell_type::line:
-      return "T3D2";
-    case cell_type::quadratic_edge:
-      return "T3D3";
-    case cell_type::triangle:
-      return "CPS3";
-    case cell_type::quad:
-      return "CPS4";
-    case cell_type::quadratic_triangle:
-      return "CPS6";
-    case cell_type::quadratic_quad:
-      return "CPS8";
-    case cell_type::biquadratic_quad:
-      return "M3D9";
-    case cell_type::tetrahedron:
-      return "C3D4";
-    case cell_type::pyramid:
-      return "C3D5";
-    case cell_type::wedge:
-      return "C3D6";
-    case cell_type::hexahedron:
-      return "C3D8";
-    case cell_type::quadratic_tetrahedron:
-      return "C3D10";
-    case cell_type::quadratic_wedge:
-      return "C3D15";
-    case cell_type::quadratic_hexahedron:
-      return "C3D20";
-    default:
-      return {};
-  }
+  const auto* const found =
+      std::ranges::find(inp_written_types, cell, &std::pair<std::uint8_t, std::string_view>::first);
+  return found == inp_written_types.end() ? std::string_view() : found->second;
 }
 
 }  // namespace trismooth

@@ -11,6 +11,7 @@ namespace {
 
 using Kind = VtkLegacyType::Kind;
 
+/// Of the names of one type, the first is the one that is written.
 constexpr auto legacy_type_names = std::to_array<std::pair<std::string_view, VtkLegacyType>>({
     {"bit", {Kind::bits, ScalarType::uint8}},
     {"char", {Kind::numbers, ScalarType::int8}},
@@ -20,6 +21,8 @@ constexpr auto legacy_type_names = std::to_array<std::pair<std::string_view, Vtk
     {"unsigned_short", {Kind::numbers, ScalarType::uint16}},
     {"int", {Kind::numbers, ScalarType::int32}},
     {"unsigned_int", {Kind::numbers, ScalarType::uint32}},
+    {"vtktypeint64", {Kind::numbers, ScalarType::int64}},
+    {"vtktypeuint64", {Kind::numbers, ScalarType::uint64}},
     {"long", {Kind::numbers, ScalarType::int64}},
     {"unsigned_long", {Kind::numbers, ScalarType::uint64}},
     {"float", {Kind::numbers, ScalarType::float32}},
@@ -31,8 +34,6 @@ constexpr auto legacy_type_names = std::to_array<std::pair<std::string_view, Vtk
     {"vtktypeuint16", {Kind::numbers, ScalarType::uint16}},
     {"vtktypeint32", {Kind::numbers, ScalarType::int32}},
     {"vtktypeuint32", {Kind::numbers, ScalarType::uint32}},
-    {"vtktypeint64", {Kind::numbers, ScalarType::int64}},
-    {"vtktypeuint64", {Kind::numbers, ScalarType::uint64}},
     {"vtktypefloat32", {Kind::numbers, ScalarType::float32}},
     {"vtktypefloat64", {Kind::numbers, ScalarType::float64}},
     {"string", {Kind::strings, ScalarType::uint8}},
@@ -66,29 +67,10 @@ std::optional<VtkLegacyType> vtk_legacy_type(std::string_view name) {
 }
 
 std::string_view vtk_legacy_type_name(ScalarType type) {
-  switch (type) {
-    case ScalarType::int8:
-      return "char";
-    case ScalarType::uint8:
-      return "unsigned_char";
-    case ScalarType::int16:
-      return "short";
-    case ScalarType::uint16:
-      return "unsigned_short";
-    case ScalarType::int32:
-      return "int";
-    case ScalarType::uint32:
-      return "unsigned_int";
-    case ScalarType::int64:
-      return "vtktypeint64";
-    case ScalarType::uint64:
-      return "vtktypeuint64";
-    case ScalarType::float32:
-      return "float";
-    case ScalarType::float64:
-      break;
-  }
-  return "double";
+  return std::ranges::find_if(
+             legacy_type_names,
+             [type](const auto& named) { return named.second.kind == Kind::numbers && named.second.scalar == type; })
+      ->first;
 }
 
 std::string lower_case(std::string_view text) {
