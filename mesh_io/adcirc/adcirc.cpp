@@ -98,12 +98,8 @@ void write_adcirc(const std::filesystem::path& path, const MeshDocument& documen
 
 std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
   MeshDocument lost;
-  lost.cell_arrays = document.cell_arrays;
-  lost.field_arrays = document.field_arrays;
   lost.cell_sets = document.cell_sets;
   const std::string depths = find_place_values(document, PlaceValue::depth).array;
-  std::ranges::copy_if(document.point_arrays, std::back_inserter(lost.point_arrays),
-                       [&depths](const DataArray& array) { return array.name != depths; });
   std::ranges::copy_if(document.point_sets, std::back_inserter(lost.point_sets),
                        [](const NamedSet& set) { return !written_boundary(set); });
   const AdcircLineBoundaries boundaries = boundaries_to_write(document);
@@ -115,7 +111,7 @@ std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
   }
   std::vector<std::string> sentences = describe_lost_cells("ADCIRC", "triangles", adcirc_types, cells);
   std::ranges::copy(boundaries.losses, std::back_inserter(sentences));
-  std::ranges::move(describe_lost_arrays("ADCIRC", lost), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_arrays("ADCIRC", document, {.point = depths}), std::back_inserter(sentences));
   if (!lost.point_sets.empty()) {
     sentences.push_back(
         "ADCIRC holds boundaries without heights by their names ('open boundary 1', 'land boundary "

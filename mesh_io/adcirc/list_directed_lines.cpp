@@ -1,10 +1,10 @@
 #include "trismooth/mesh_io/adcirc/list_directed_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/expected_number.h"
 #include "trismooth/mesh_io/text/number_text.h"
 
 namespace trismooth {
@@ -87,33 +87,20 @@ void ListDirectedLines::take_value(std::size_t begin, std::string_view value) {
 
 std::int64_t ListDirectedLines::next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest) {
   const std::string_view value = next_value(what);
-  const std::optional<std::int64_t> number = parse_integer(value);
-  if (!number) {
-    fail("expected " + std::string(what) + " (a whole number), got " + quoted(value));
-  }
-  if (*number < lowest || *number > highest) {
+  const std::int64_t number = whole_number(value, what, [this](const std::string& message) { fail(message); });
+  if (number < lowest || number > highest) {
     fail("expected " + std::string(what) + " from " + std::to_string(lowest) + " to " + std::to_string(highest) +
          ", got " + quoted(value));
   }
-  return *number;
+  return number;
 }
 
 double ListDirectedLines::next_number(std::string_view what) {
-  const std::string_view value = next_value(what);
-  const std::optional<double> number = parse_fortran_number<double>(value);
-  if (!number || !std::isfinite(*number)) {
-    fail("expected " + std::string(what) + " (a finite number), got " + quoted(value));
-  }
-  return *number;
+  return finite_number(next_value(what), what, [this](const std::string& message) { fail(message); });
 }
 
 double ListDirectedLines::next_number_or_none(std::string_view what) {
-  const std::string_view value = next_value(what);
-  const std::optional<double> number = parse_fortran_number<double>(value);
-  if (!number || std::isinf(*number)) {
-    fail("expected " + std::string(what) + " (a finite number or nan), got " + quoted(value));
-  }
-  return *number;
+  return finite_number_or_none(next_value(what), what, [this](const std::string& message) { fail(message); });
 }
 
 std::optional<std::int64_t> ListDirectedLines::next_integer_if_any() {

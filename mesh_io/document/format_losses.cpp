@@ -5,66 +5,44 @@
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/document/cells/other_cells.h"
 
 namespace trismooth {
 
 namespace {
 
-/// Adds the sentence for arrays or sets, if there are any.
-template <class All>
-void describe(std::vector<std::string>& sentences, std::string_view format, std::string_view what, const All& all) {
-  if (!all.empty()) {
-    sentences.push_back(std::string(format) + " holds no " + std::string(what) + ": " +
-                        list_text(all, shown_name<typename All::value_type>) + not_written(all.size()));
+/// Those without the one of that name.
+std::vector<const DataArray*> arrays_but(std::optional<std::string_view> name, const std::vector<DataArray>& arrays) {
+  std::vector<const DataArray*> others;
+  for (const DataArray& array : arrays) {
+    if (!name || array.name != *name) {
+      others.push_back(&array);
+    }
   }
+  return others;
 }
 
-std::string type_name(std::size_t type) {
-  switch (type) {
-    case cell_type::vertex:
-      return "vertex";
-    case cell_type::poly_vertex:
-      return "poly_vertex";
-    case cell_type::line:
-      return "line";
-    case cell_type::poly_line:
-      return "poly_line";
-    case cell_type::triangle:
-      return "triangle";
-    case cell_type::triangle_strip:
-      return "triangle_strip";
-    case cell_type::polygon:
-      return "polygon";
-    case cell_type::quad:
-      return "quad";
-    case cell_type::tetrahedron:
-      return "tetrahedron";
-    case cell_type::hexahedron:
-      return "hexahedron";
-    case cell_type::wedge:
-      return "wedge";
-    case cell_type::pyramid:
-      return "pyramid";
-    case cell_type::quadratic_edge:
-      return "quadratic_edge";
-    case cell_type::quadratic_triangle:
-      return "quadratic_triangle";
-    case cell_type::quadratic_quad:
-      return "quadratic_quad";
-    case cell_type::biquadratic_quad:
-      return "biquadratic_quad";
-    default:
-      return std::to_string(type) + " (by VTK's numbers)";
+/// Adds the sentence for arrays or sets, if there are any.
+template <class All, class Name>
+void describe(std::vector<std::string>& sentences, std::string_view format, std::string_view what, const All& all,
+              const Name& name) {
+  if (!all.empty()) {
+    sentences.push_back(std::string(format) + " holds no " + std::string(what) + ": " + list_text(all, name) +
+                        not_written(all.size()));
   }
 }
 
 }  // namespace
 
-std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document) {
+std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document,
+                                              const HeldArrays& held) {
   std::vector<std::string> sentences;
-  describe(sentences, format, "point arrays", document.point_arrays);
-  describe(sentences, format, "cell arrays", document.cell_arrays);
-  describe(sentences, format, "field arrays", document.field_arrays);
+  const auto tell_of = [&](std::string_view what, const std::vector<const DataArray*>& arrays) {
+    describe(sentences, format, what, arrays, [](const DataArray* array) { return shown_name(*array); });
+  };
+  tell_of("point arrays", arrays_but(held.point, document.point_arrays));
+  tell_of("cell arrays", arrays_but(held.cell, document.cell_arrays));
+  tell_of("field arrays", arrays_but(std::nullopt, document.field_arrays));
   return sentences;
 }
 
@@ -83,8 +61,8 @@ std::vector<std::string> describe_lost_names(std::string_view format, const Mesh
 
 std::vector<std::string> describe_lost_sets(std::string_view format, const MeshDocument& document) {
   std::vector<std::string> sentences;
-  describe(sentences, format, "sets of points", document.point_sets);
-  describe(sentences, format, "sets of cells", document.cell_sets);
+  describe(sentences, format, "sets of points", document.point_sets, shown_name<NamedSet>);
+  describe(sentences, format, "sets of cells", document.cell_sets, shown_name<NamedSet>);
   return sentences;
 }
 
@@ -107,18 +85,12 @@ std::vector<std::string> describe_new_order(std::string_view format, std::span<c
 
 std::vector<std::string> describe_lost_cells(std::string_view format, std::string_view holds,
                                              std::span<const std::uint8_t> written_types, const CellList& cells) {
-  std::array<std::size_t, 256> counts{};
-  for (const std::uint8_t type : cells.types) {
-    ++counts[type];
-  }
-  for (const std::uint8_t type : written_types) {
-    counts[type] = 0;
-  }
+  const std::array<std::size_t, 256> counts = count_other_cells(cells, written_types);
   std::string lost;
   std::size_t total = 0;
   for (std::size_t type = 0; type < counts.size(); ++type) {
     if (counts[type] > 0) {
-      add_to_list(lost, counted(counts[type], "cell of type ", "cells of type ") + type_name(type));
+      add_to_list(lost, counted(counts[type], "cell of type ", "cells of type ") + cell_type_name(type));
       total += counts[type];
     }
   }

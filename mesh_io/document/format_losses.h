@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,9 +23,16 @@ std::string_view shown_name(const Named& named) {
   return named.name.empty() ? std::string_view("(no name)") : named.name;
 }
 
+/// The array of points and that of cells that a format does hold, by their names: as depths, as groups.
+struct HeldArrays {
+  std::optional<std::string_view> point{};
+  std::optional<std::string_view> cell{};
+};
+
 /// One sentence for every kind of array that the document has, naming the arrays: "OFF holds no cell arrays: region
-/// is not written". For formats that hold no arrays; `format` is the format's name in the sentences.
-std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document);
+/// is not written". For formats that hold no arrays but `held`; `format` is the format's name in the sentences.
+std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document,
+                                              const HeldArrays& held = {});
 
 /// The sentence for the names that values of the document's cell arrays have, at most one: "OFF holds no names of
 /// values: those of region are not written".

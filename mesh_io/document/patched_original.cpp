@@ -17,20 +17,8 @@ class PatchedOriginal : public OriginalFile {
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
              Workers& workers) const override {
-    if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
-      throw WriteError(path, "the format holds no named arrays, none can be added");
-    }
-    if (document.point_count() != vertex_count_) {
-      throw WriteError(path, "the file that was read has " + std::to_string(vertex_count_) +
-                                 " vertices, the mesh to write has " + std::to_string(document.point_count()));
-    }
-    std::vector<std::vector<double>> copies;
-    std::vector<PatchedSites> lists;
-    lists.reserve(sites_.size());
-    for (const NumberSites& sites : sites_) {
-      lists.push_back({sites, column_values(sites, document, copies)});
-    }
-    write_patched(path, bytes_, lists, {}, FileWorkers(workers));
+    require_same_points(path, document, vertex_count_, "vertices", added_point_arrays, added_cell_arrays);
+    write_sites(path, bytes_, sites_, document, workers);
   }
 
   bool keeps_values_of(std::string_view point_array) const override {
@@ -51,6 +39,29 @@ class PatchedOriginal : public OriginalFile {
 };
 
 }  // namespace
+
+void require_same_points(const std::filesystem::path& path, const MeshDocument& document, std::size_t count,
+                         std::string_view things, std::span<const DataArray> added_point_arrays,
+                         std::span<const DataArray> added_cell_arrays) {
+  if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
+    throw WriteError(path, "the format holds no named arrays, none can be added");
+  }
+  if (document.point_count() != count) {
+    throw WriteError(path, "the file that was read has " + std::to_string(count) + " " + std::string(things) +
+                               ", the mesh to write has " + std::to_string(document.point_count()));
+  }
+}
+
+void write_sites(const std::filesystem::path& path, std::string_view bytes, std::span<const NumberSites> sites,
+                 const MeshDocument& document, Workers& workers) {
+  std::vector<std::vector<double>> copies;
+  std::vector<PatchedSites> lists;
+  lists.reserve(sites.size());
+  for (const NumberSites& list : sites) {
+    lists.push_back({list, column_values(list, document, copies)});
+  }
+  write_patched(path, bytes, lists, {}, FileWorkers(workers));
+}
 
 std::vector<ColumnValues> column_values(const NumberSites& sites, const MeshDocument& document,
                                         std::vector<std::vector<double>>& copies) {

@@ -25,10 +25,6 @@ namespace trismooth {
 
 namespace {
 
-std::size_t begin_of_freefem(std::string_view bytes) {
-  return bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-}
-
 /// Cells of one kind, as the file lists them.
 struct FreeFemCells {
   std::string_view name;  ///< of one, for messages
@@ -42,7 +38,7 @@ constexpr std::size_t freefem_vertex_numbers = 3;  // x, y and the label
 class FreeFemReader {
  public:
   FreeFemReader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
-      : scanner_(bytes, path, TextScanner::Comments::none, begin_of_freefem(bytes)),
+      : scanner_(bytes, path, TextScanner::Comments::none, begin_of_text(bytes)),
         workers_(workers),
         plain_rows_(bytes, workers) {
     sites_.columns.resize(2);
@@ -194,7 +190,7 @@ bool begins_as_freefem(std::string_view bytes) {
   const bool is_whole = bytes.size() <= enough;
   // No line that is cut.
   const std::string_view head = is_whole ? bytes : bytes.substr(0, bytes.find_last_of("\r\n", enough) + 1);
-  TextScanner scanner(head, {}, TextScanner::Comments::none, begin_of_freefem(head));
+  TextScanner scanner(head, {}, TextScanner::Comments::none, begin_of_text(head));
   if (scanner.at_end()) {
     return false;
   }

@@ -190,12 +190,7 @@ std::vector<std::string> lost_in_inp(const MeshDocument& document) {
   const WrittenInpSets sets = written_sets(document);
   std::vector<std::string> sentences = describe_lost_cells("Abaqus", "lines, faces and solids", {},
                                                            cells_to_tell_of(document, find_cell_groups(document)));
-  MeshDocument arrays;
-  arrays.point_arrays = document.point_arrays;
-  arrays.field_arrays = document.field_arrays;
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(arrays.cell_arrays),
-                       [&sets](const DataArray& array) { return array.name != sets.array; });
-  std::ranges::move(describe_lost_arrays("Abaqus", arrays), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_arrays("Abaqus", document, {.cell = sets.array}), std::back_inserter(sentences));
   const auto tell_of = [&](std::string_view rule, const std::vector<std::string>& (InpSetNames::*names)() const) {
     std::string all;
     for (const InpSetNames* const taken : {&sets.cell_names, &sets.point_names}) {

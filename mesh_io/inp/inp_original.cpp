@@ -6,7 +6,6 @@
 
 #include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/document/patched_original.h"
-#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -28,13 +27,7 @@ class InpOriginal : public OriginalFile {
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
              Workers& workers) const override {
-    if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
-      throw WriteError(path, "the format holds no named arrays, none can be added");
-    }
-    if (document.points.size() != points_.size()) {
-      throw WriteError(path, "the file that was read has " + std::to_string(points_.size() / 3) +
-                                 " nodes, the mesh to write has " + std::to_string(document.point_count()));
-    }
+    require_same_points(path, document, points_.size() / 3, "nodes", added_point_arrays, added_cell_arrays);
     const std::vector<bool> comes_in = sources_that_come_in(
         sources_, path.parent_path(), [&](const InpSource& source) { return has_changed(source, document); });
     if (std::ranges::find(comes_in, true) == comes_in.end() && !fills_gaps(sources_.front(), document)) {
@@ -47,17 +40,6 @@ class InpOriginal : public OriginalFile {
   }
 
  private:
-  static void write_sites(const std::filesystem::path& path, std::string_view text,
-                          const std::vector<NumberSites>& sites, const MeshDocument& document, Workers& workers) {
-    std::vector<PatchedSites> lists;
-    lists.reserve(sites.size());
-    std::vector<std::vector<double>> copies;
-    for (const NumberSites& list : sites) {
-      lists.push_back({list, column_values(list, document, copies)});
-    }
-    write_patched(path, text, lists, {}, FileWorkers(workers));
-  }
-
   bool has_changed(const InpSource& source, const MeshDocument& document) const {
     return fills_gaps(source, document) || has_moved_sites(source, document);
   }
@@ -84,7 +66,7 @@ class InpOriginal : public OriginalFile {
               const MeshDocument& document) const {
     const InpSource& source = sources_[index];
     const std::string_view bytes = source.bytes;
-    std::size_t done = index > 0 && bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    std::size_t done = index > 0 ? begin_of_text(bytes) : 0;
     auto list = source.sites.begin();
     std::size_t site = 0;
     auto gap = source.gaps.begin();

@@ -60,9 +60,7 @@ std::string_view InpKeyword::value_of(std::string_view parameter) const {
 }
 
 InpLines::InpLines(std::string_view text)
-    : text_(without_end_mark(text)),
-      at_(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
-      line_(text_.substr(0, 0)) {}
+    : text_(without_end_mark(text)), at_(begin_of_text(text)), line_(text_.substr(0, 0)) {}
 
 /// The next line without its end.
 std::string_view InpLines::raw_line() {

@@ -23,8 +23,7 @@ bool begins_medit_keyword(char c) {
 class MeditTextReader {
  public:
   MeditTextReader(const std::filesystem::path& path, std::string_view bytes, const FileWorkers& workers)
-      : scanner_(bytes, path, TextScanner::Comments::hash,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+      : scanner_(bytes, path, TextScanner::Comments::hash, begin_of_text(bytes)),
         plain_rows_(bytes, workers),
         mesh_(workers) {}
 

@@ -24,7 +24,7 @@ namespace {
 constexpr std::array written_types{cell_type::line, cell_type::triangle, cell_type::quad};
 
 bool is_mfem(std::string_view bytes) {
-  bytes.remove_prefix(bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  bytes.remove_prefix(begin_of_text(bytes));
   return bytes.starts_with("MFEM ");
 }
 

@@ -33,8 +33,7 @@ constexpr std::int64_t most_indices = std::numeric_limits<std::int32_t>::max();
 class MfemReader {
  public:
   MfemReader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
-      : scanner_(bytes, path, TextScanner::Comments::hash,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+      : scanner_(bytes, path, TextScanner::Comments::hash, begin_of_text(bytes)),
         workers_(workers),
         rows_(bytes, workers) {}
 

@@ -14,7 +14,7 @@ namespace {
 
 /// The first line that is not empty names a section; $Comments may stand before the header.
 bool is_msh(std::string_view bytes) {
-  std::size_t begin = bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  std::size_t begin = begin_of_text(bytes);
   begin = std::min(bytes.find_first_not_of(" \t\v\f\r\n", begin), bytes.size());
   const std::string_view line = trimmed(bytes.substr(begin, find_line_end(bytes, begin) - begin));
   return line == "$MeshFormat" || line == "$NOD" || line == "$Comments";

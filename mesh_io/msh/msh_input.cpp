@@ -18,8 +18,7 @@ constexpr std::array<double, 5> read_versions{2.0, 2.1, 2.2, 4.0, 4.1};
 }  // namespace
 
 MshInput::MshInput(std::string_view bytes, const std::filesystem::path& path)
-    : scanner_(bytes, path, TextScanner::Comments::none,
-               bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
+    : scanner_(bytes, path, TextScanner::Comments::none, begin_of_text(bytes)) {}
 
 void MshInput::read_header() {
   const std::string_view version = scanner_.next_token("the version of the format");

@@ -9,6 +9,7 @@
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/nastran/nastran_card.h"
 #include "trismooth/mesh_io/nastran/nastran_elements.h"
@@ -169,28 +170,14 @@ void write_nastran(const std::filesystem::path& path, const MeshDocument& docume
   writer.close();
 }
 
-std::vector<std::uint8_t> types_of_nastran() {
-  std::vector<std::uint8_t> types;
-  for (int type = 0; type < 256; ++type) {
-    if (nastran_element_of_cell(static_cast<std::uint8_t>(type)) != nullptr) {
-      types.push_back(static_cast<std::uint8_t>(type));
-    }
-  }
-  return types;
-}
-
 std::vector<std::string> lost_in_nastran(const MeshDocument& document) {
   const WrittenProperties properties = written_properties(document);
-  MeshDocument lost;
-  lost.point_arrays = document.point_arrays;
-  lost.field_arrays = document.field_arrays;
-  lost.point_sets = document.point_sets;
-  lost.cell_sets = document.cell_sets;
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(lost.cell_arrays),
-                       [&](const DataArray& array) { return array.name != properties.groups.array; });
+  const auto written_types =
+      cell_types_where([](std::uint8_t type) { return nastran_element_of_cell(type) != nullptr; });
   std::vector<std::string> sentences =
-      describe_lost_cells("Nastran", "lines, faces and solids", types_of_nastran(), document.cells);
-  for (std::vector<std::string> more : {describe_lost_arrays("Nastran", lost), describe_lost_sets("Nastran", lost)}) {
+      describe_lost_cells("Nastran", "lines, faces and solids", written_types, document.cells);
+  for (std::vector<std::string> more : {describe_lost_arrays("Nastran", document, {.cell = properties.groups.array}),
+                                        describe_lost_sets("Nastran", document)}) {
     std::ranges::move(more, std::back_inserter(sentences));
   }
   std::vector<std::string> names;
@@ -217,7 +204,7 @@ std::vector<std::string> lost_in_nastran(const MeshDocument& document) {
 /// Before anything else but comments and blank lines stands a word that begins a deck, or a card that bulk data have.
 bool is_nastran(std::string_view bytes) {
   constexpr auto first_words = std::to_array<std::string_view>({"SOL", "CEND", "NASTRAN", "ASSIGN", "ID"});
-  NastranLines lines(bytes, bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  NastranLines lines(bytes, begin_of_text(bytes));
   bool is_control = false;
   while (lines.next()) {
     const std::string_view line = lines.line();

@@ -56,7 +56,7 @@ void NastranDeckReader::read() {
 void NastranDeckReader::read_source(std::size_t source) {
   open_.push_back(source);
   const std::string_view text = without_end_mark(model_.sources[source].bytes);
-  NastranLines lines(text, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  NastranLines lines(text, begin_of_text(text));
   while (!has_ended_ && lines.next()) {
     const std::string_view line = lines.line();
     const auto begin = static_cast<std::size_t>(line.data() - text.data());

@@ -12,7 +12,7 @@
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/ordered_blocks.h"
 #include "trismooth/mesh_io/document/included_sources.h"
-#include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/nastran/nastran_grid.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
@@ -28,13 +28,7 @@ class NastranOriginal : public OriginalFile {
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
              Workers& workers) const override {
-    if (!added_point_arrays.empty() || !added_cell_arrays.empty()) {
-      throw WriteError(path, "the format holds no named arrays, none can be added");
-    }
-    if (document.points.size() != points_.size()) {
-      throw WriteError(path, "the file that was read has " + std::to_string(points_.size() / 3) +
-                                 " nodes, the mesh to write has " + std::to_string(document.point_count()));
-    }
+    require_same_points(path, document, points_.size() / 3, "nodes", added_point_arrays, added_cell_arrays);
     const std::vector<bool> comes_in =
         sources_that_come_in(sources_, path.parent_path(), [&](const NastranSource& source) {
           return std::ranges::any_of(source.vertices, [&](std::int32_t vertex) {
@@ -59,7 +53,7 @@ class NastranOriginal : public OriginalFile {
                     OrderedBlocks& blocks) const {
     const NastranSource& source = sources_[index];
     const std::string_view bytes = source.bytes;
-    std::size_t done = index > 0 && bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    std::size_t done = index > 0 ? begin_of_text(bytes) : 0;
     for (const NastranInclude& include : source.includes) {
       if (!comes_in[include.source]) {
         continue;

@@ -129,10 +129,7 @@ struct Part {
 class PlainObjReader {
  public:
   PlainObjReader(std::string_view text, const FileWorkers& workers)
-      : text_(text),
-        workers_(workers.workers),
-        lines_(text, text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0, workers),
-        parts_(lines_.size()) {}
+      : text_(text), workers_(workers.workers), lines_(text, begin_of_text(text), workers), parts_(lines_.size()) {}
 
   bool read() {
     if (!lines_.all_of([this](std::size_t part) { return count(part); })) {

@@ -23,9 +23,8 @@ namespace {
 class ObjReader {
  public:
   ObjReader(std::string_view bytes, const std::filesystem::path& path)
-      : scanner_(bytes, path, TextScanner::Comments::hash,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0,
-                 TextScanner::Continuation::backslash) {}
+      : scanner_(bytes, path, TextScanner::Comments::hash, begin_of_text(bytes), TextScanner::Continuation::backslash) {
+  }
 
   std::pair<MeshDocument, NumberSites> read() {
     bool has_statements = false;

@@ -62,8 +62,7 @@ class UniformRows {
 class OffReader {
  public:
   OffReader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
-      : scanner_(bytes, path, TextScanner::Comments::hash,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+      : scanner_(bytes, path, TextScanner::Comments::hash, begin_of_text(bytes)),
         workers_(workers),
         plain_rows_(bytes, workers) {}
 

@@ -36,9 +36,7 @@ constexpr std::array<TypeName, 10> ply_type_names{{
 class HeaderParser {
  public:
   HeaderParser(const std::filesystem::path& path, std::string_view bytes)
-      : bytes_(bytes),
-        begin_(bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
-        scanner_(bytes, path, TextScanner::Comments::none, begin_) {}
+      : bytes_(bytes), begin_(begin_of_text(bytes)), scanner_(bytes, path, TextScanner::Comments::none, begin_) {}
 
   PlyHeader parse() {
     parse_magic();

@@ -153,27 +153,22 @@ std::vector<std::string> lost_in_sms(const MeshDocument& document) {
   const CellGroups groups = find_cell_groups(document);
   const std::string elevations = find_place_values(document, PlaceValue::elevation).array;
   MeshDocument lost;
-  lost.field_arrays = document.field_arrays;
   lost.cell_sets = document.cell_sets;
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(lost.cell_arrays),
-                       [&groups](const DataArray& array) { return array.name != groups.array; });
-  std::ranges::copy_if(document.point_arrays, std::back_inserter(lost.point_arrays),
-                       [&elevations](const DataArray& array) { return array.name != elevations; });
   std::vector<std::uint8_t> types(sms_elements.size());
   std::ranges::transform(sms_elements, types.begin(), &SmsElement::type);
   std::vector<std::string> sentences =
       describe_lost_cells("2dm", "triangles, quadrilaterals and lines", types, document.cells);
   for (std::vector<std::string> more :
-       {describe_lost_arrays("2dm", lost), describe_lost_sets("2dm", lost), lost_material_names(groups),
-        lost_set_names(document), elevations.empty() ? std::vector<std::string>{} : describe_lost_z("2dm", document)}) {
+       {describe_lost_arrays("2dm", document, {.point = elevations, .cell = groups.array}),
+        describe_lost_sets("2dm", lost), lost_material_names(groups), lost_set_names(document),
+        elevations.empty() ? std::vector<std::string>{} : describe_lost_z("2dm", document)}) {
     std::ranges::move(more, std::back_inserter(sentences));
   }
   return sentences;
 }
 
 bool recognises_sms(std::string_view bytes) {
-  TextScanner scanner(bytes, {}, TextScanner::Comments::hash,
-                      bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  TextScanner scanner(bytes, {}, TextScanner::Comments::hash, begin_of_text(bytes));
   return scanner.peek_token() == "MESH2D";
 }
 

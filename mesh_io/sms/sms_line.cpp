@@ -1,11 +1,9 @@
 #include "trismooth/mesh_io/sms/sms_line.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "trismooth/mesh_io/text/blanks.h"
-#include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/text/expected_number.h"
 
 namespace trismooth {
 
@@ -49,30 +47,15 @@ std::string_view SmsLine::require_word(std::string_view what) {
 }
 
 std::int64_t SmsLine::next_integer(std::string_view what) {
-  const std::string_view word = require_word(what);
-  const auto number = parse_integer(word);
-  if (!number) {
-    fail("expected " + std::string(what) + " (a whole number), got " + quoted(word));
-  }
-  return *number;
+  return whole_number(require_word(what), what, [this](const std::string& message) { fail(message); });
 }
 
 double SmsLine::next_number(std::string_view what) {
-  const std::string_view word = require_word(what);
-  const auto number = parse_fortran_number<double>(word);
-  if (!number || !std::isfinite(*number)) {
-    fail("expected " + std::string(what) + " (a finite number), got " + quoted(word));
-  }
-  return *number;
+  return finite_number(require_word(what), what, [this](const std::string& message) { fail(message); });
 }
 
 double SmsLine::next_number_or_none(std::string_view what) {
-  const std::string_view word = require_word(what);
-  const auto number = parse_fortran_number<double>(word);
-  if (!number || std::isinf(*number)) {
-    fail("expected " + std::string(what) + " (a finite number or nan), got " + quoted(word));
-  }
-  return *number;
+  return finite_number_or_none(require_word(what), what, [this](const std::string& message) { fail(message); });
 }
 
 }  // namespace trismooth

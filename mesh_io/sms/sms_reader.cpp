@@ -29,8 +29,7 @@ namespace {
 class SmsReader {
  public:
   SmsReader(std::string_view bytes, const std::filesystem::path& path)
-      : scanner_(bytes, path, TextScanner::Comments::hash,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {
+      : scanner_(bytes, path, TextScanner::Comments::hash, begin_of_text(bytes)) {
     sites_.columns = {{.component = 0}, {.component = 1}, {.array = "elevation"}};
   }
 

@@ -100,11 +100,6 @@ MeshDocument read_binary(const std::filesystem::path& path, FileBytes bytes, con
   return document;
 }
 
-/// What some editors put in front of a text is no part of it.
-std::size_t begin_of_text(std::string_view bytes) {
-  return bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-}
-
 class TextReader {
  public:
   TextReader(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers)

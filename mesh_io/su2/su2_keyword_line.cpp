@@ -32,7 +32,7 @@ std::optional<Su2KeywordLine> parse_su2_keyword_line(std::string_view line) {
 
 bool recognises_su2(std::string_view bytes) {
   constexpr std::array<std::string_view, 5> first_keywords{"NDIME", "NZONE", "IZONE", "NPOIN", "NELEM"};
-  std::size_t at = bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  std::size_t at = begin_of_text(bytes);
   while (at < bytes.size()) {
     const std::size_t end = find_line_end(bytes, at);
     const std::string_view line = trimmed(bytes.substr(at, end - at));

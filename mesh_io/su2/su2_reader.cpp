@@ -84,8 +84,7 @@ struct ReadZone {
 class Su2Reader {
  public:
   Su2Reader(std::string_view bytes, const std::filesystem::path& path, const FileWorkers& workers)
-      : scanner_(bytes, path, TextScanner::Comments::percent,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+      : scanner_(bytes, path, TextScanner::Comments::percent, begin_of_text(bytes)),
         workers_(workers),
         rows_(scanner_, workers) {}
 

@@ -120,12 +120,11 @@ std::vector<std::string> describe_lost_in_arrays(const MeshDocument& document) {
   const CellGroups groups = find_cell_groups(document);
   const bool has_markers =
       std::ranges::any_of(groups.groups, [](const CellGroup& group) { return group.dimension == 1; });
-  MeshDocument arrays;
-  arrays.point_arrays = document.point_arrays;
-  arrays.field_arrays = document.field_arrays;
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(arrays.cell_arrays),
-                       [&](const DataArray& array) { return !has_markers || array.name != groups.array; });
-  std::vector<std::string> sentences = describe_lost_arrays("SU2", arrays);
+  HeldArrays held;
+  if (has_markers) {
+    held.cell = groups.array;
+  }
+  std::vector<std::string> sentences = describe_lost_arrays("SU2", document, held);
   // A value of 0 without a name, of all other cells, says nothing.
   const bool has_others = std::ranges::any_of(groups.groups, [](const CellGroup& group) {
     return group.dimension != 1 && (group.number != 0 || !group.name.empty());

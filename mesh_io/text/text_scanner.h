@@ -10,6 +10,11 @@ namespace trismooth {
 /// What some editors put in front of text in UTF-8.
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
+/// Where a text begins: behind the byte order mark that some editors put in front of it, if it has one.
+constexpr std::size_t begin_of_text(std::string_view bytes) {
+  return bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+}
+
 /// Reads the white-space separated tokens of a text file and knows where it stands, for messages with a line number.
 /// LF, CR LF and CR alone end a line; a Ctrl-Z with nothing but white space behind it ends the text.
 /// Locale-independent. The text must outlive the scanner.

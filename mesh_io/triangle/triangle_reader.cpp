@@ -53,8 +53,7 @@ class TriangleOriginal : public OriginalFile {
 class TriangleFileReader {
  public:
   TriangleFileReader(const TriangleFile& file, const FileWorkers& workers)
-      : scanner_(file.bytes, file.path, TextScanner::Comments::hash,
-                 file.bytes.view().starts_with(byte_order_mark) ? byte_order_mark.size() : 0),
+      : scanner_(file.bytes, file.path, TextScanner::Comments::hash, begin_of_text(file.bytes.view())),
         workers_(workers) {}
 
   /// The next number of the first line; `missing` where that has ended.

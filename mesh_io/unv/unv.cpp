@@ -10,6 +10,7 @@
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
+#include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_mesh_writer.h"
@@ -248,26 +249,12 @@ void write_unv(const std::filesystem::path& path, const MeshDocument& document, 
   writer.close();
 }
 
-std::vector<std::uint8_t> types_of_unv() {
-  std::vector<std::uint8_t> types;
-  for (int type = 0; type < 256; ++type) {
-    if (unv_shape_of_cell(static_cast<std::uint8_t>(type)).nodes > 0) {
-      types.push_back(static_cast<std::uint8_t>(type));
-    }
-  }
-  return types;
-}
-
 std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   const CellGroups groups = find_cell_groups(document);
-  MeshDocument lost;
-  lost.point_arrays = document.point_arrays;
-  lost.field_arrays = document.field_arrays;
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(lost.cell_arrays),
-                       [&](const DataArray& array) { return array.name != groups.array; });
+  const auto written_types = cell_types_where([](std::uint8_t type) { return unv_shape_of_cell(type).nodes > 0; });
   std::vector<std::string> sentences =
-      describe_lost_cells("UNV", "lines, faces and solids", types_of_unv(), document.cells);
-  std::ranges::move(describe_lost_arrays("UNV", lost), std::back_inserter(sentences));
+      describe_lost_cells("UNV", "lines, faces and solids", written_types, document.cells);
+  std::ranges::move(describe_lost_arrays("UNV", document, {.cell = groups.array}), std::back_inserter(sentences));
   std::vector<std::string> changed;
   (void)written_groups(document, groups, written_elements(document.cells), &changed);
   if (!changed.empty()) {
@@ -290,8 +277,7 @@ std::vector<std::string> lost_in_unv(const MeshDocument& document) {
 
 /// A line -1, then the number of the first data set, as text.
 bool is_unv(std::string_view bytes) {
-  TextScanner scanner(bytes, {}, TextScanner::Comments::none,
-                      bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  TextScanner scanner(bytes, {}, TextScanner::Comments::none, begin_of_text(bytes));
   if (scanner.peek_token() != "-1") {
     return false;
   }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -21,6 +20,7 @@
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/text/blanks.h"
+#include "trismooth/mesh_io/text/expected_number.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/unv/unv_elements.h"
@@ -38,8 +38,7 @@ constexpr std::string_view end_of_data_set = "-1";
 class UnvReader {
  public:
   UnvReader(std::string_view bytes, const std::filesystem::path& path)
-      : scanner_(bytes, path, TextScanner::Comments::none,
-                 bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {
+      : scanner_(bytes, path, TextScanner::Comments::none, begin_of_text(bytes)) {
     sites_.is_in_columns = true;
   }
 
@@ -173,11 +172,8 @@ class UnvReader {
     const std::size_t behind_last = scanner_.offset();
     require_more(what);
     const std::string_view text = scanner_.next_token(what);
-    const auto value = parse_fortran_number<double>(text);
-    if (!value || !std::isfinite(*value)) {
-      scanner_.fail("expected " + std::string(what) + " (a finite number), got " + quoted(text));
-    }
-    document_.points.push_back(*value);
+    document_.points.push_back(
+        finite_number(text, what, [this](const std::string& message) { scanner_.fail(message); }));
     const std::size_t begin = scanner_.token_offset();
     const std::string_view before = scanner_.text().substr(behind_last, begin - behind_last);
     const std::size_t blanks = before.size() - (before.find_last_not_of(" \t") + 1);
