@@ -15,11 +15,6 @@ void launch_cdp(Method /*method*/, const Mesh& /*mesh*/, const LoopRules& /*rule
       "resident' or 'single-block'");
 }
 
-#define INSTANTIATE(Mesh) \
-  template void launch_cdp(Method, const Mesh&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t)
-INSTANTIATE(MeshAoS<float>);
-INSTANTIATE(MeshSoA<float>);
-INSTANTIATE(MeshAoS<double>);
-INSTANTIATE(MeshSoA<double>);
+TRISMOOTH_INSTANTIATE_FOR_PAPER(launch_cdp);
 
 }  // namespace trismooth::cuda

@@ -202,4 +202,11 @@ struct MeshOf<T, Layout::soa> {
 template <class T, Layout layout>
 using MeshView = typename MeshOf<T, layout>::View;
 
+/// Instantiates a function that launches an execution of the paper, for all views.
+#define TRISMOOTH_INSTANTIATE_FOR_PAPER(launch)                                                                 \
+  template void launch(Method, const MeshAoS<float>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);  \
+  template void launch(Method, const MeshSoA<float>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t);  \
+  template void launch(Method, const MeshAoS<double>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t); \
+  template void launch(Method, const MeshSoA<double>&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t)
+
 }  // namespace trismooth::cuda

@@ -61,11 +61,6 @@ void launch_single_block(Method method, const Mesh& mesh, const LoopRules& rules
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 
-#define INSTANTIATE(Mesh) \
-  template void launch_single_block(Method, const Mesh&, const LoopRules&, LoopState*, SweepSums*, cudaStream_t)
-INSTANTIATE(MeshAoS<float>);
-INSTANTIATE(MeshSoA<float>);
-INSTANTIATE(MeshAoS<double>);
-INSTANTIATE(MeshSoA<double>);
+TRISMOOTH_INSTANTIATE_FOR_PAPER(launch_single_block);
 
 }  // namespace trismooth::cuda

@@ -48,6 +48,20 @@ void launch_all(const Update& update, const PartBatch<T>& batch, SweepSums* sums
   visit_all<marks><<<blocks, batch_threads<Update, T>, 0, stream>>>(update, batch, pieces, sums);
 }
 
+template <class Update, class T>
+void launch_marking(const Update& update, const PartBatch<T>& batch, Visit visit, SweepSums* sums,
+                    cudaStream_t stream) {
+  if (visit == Visit::all_and_mark) {
+    launch_all<true>(update, batch, sums, stream);
+    return;
+  }
+  constexpr std::int32_t vertices_a_warp = 32 * words_at_a_time;
+  const unsigned blocks =
+      std::min(blocks_for(batch.end - batch.begin, static_cast<unsigned>(marked_threads / 32 * vertices_a_warp)) + 1,
+               static_cast<unsigned>(4 * multiprocessor_count()));
+  visit_marked<<<blocks, marked_threads, 0, stream>>>(update, batch, sums);
+}
+
 template <class T>
 __global__ void __launch_bounds__(block_size)
     gather(PointArray<T> points, const std::int32_t* vertices, std::int32_t count, PointRecord<T>* out) {
@@ -83,17 +97,11 @@ void launch_part_batch(const MethodInUse<T>& method, const PartBatch<T>& batch, 
   if (batch.begin == batch.end) {
     return;
   }
-  visit_method(method, [&](const auto& update) {
+  visit_method(method, [&]<class Update>(const Update& update) {
     if (visit == Visit::all) {
       launch_all<false>(update, batch, sums, stream);
-    } else if (visit == Visit::all_and_mark) {
-      launch_all<true>(update, batch, sums, stream);
-    } else {
-      constexpr std::int32_t vertices_a_warp = 32 * words_at_a_time;
-      const unsigned blocks = std::min(
-          blocks_for(batch.end - batch.begin, static_cast<unsigned>(marked_threads / 32 * vertices_a_warp)) + 1,
-          static_cast<unsigned>(4 * multiprocessor_count()));
-      visit_marked<<<blocks, marked_threads, 0, stream>>>(update, batch, sums);
+    } else if constexpr (!moves_nearly_all<Update>) {
+      launch_marking(update, batch, visit, sums, stream);
     }
   });
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());

@@ -66,6 +66,8 @@ struct NewtonMove {
 template <class T, bool shaped, bool is_last>
 class MeanRatio {
  public:
+  static constexpr bool moves_nearly_all = !is_last;
+
   /// That of a side. V: see NewtonMove.
   template <class V>
   using Metric = std::conditional_t<shaped, EdgeTensor<V>, EuclideanMetric<V>>;

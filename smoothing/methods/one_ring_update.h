@@ -112,6 +112,13 @@ constexpr TRISMOOTH_HOST_DEVICE Move<T> update_with_minimum(const Update& method
   }
 }
 
+/// Whether nearly all vertices move in sweeps by an update, to the end of its stage: such sweeps visit all of them, and
+/// nobody marks which. An update that is so says it by a constant of that name.
+template <class Update>
+inline constexpr bool moves_nearly_all = requires {
+  requires Update::moves_nearly_all;
+};
+
 /// What visits the vertices for a method: specialised in the header of each, with a function visit() that calls another
 /// one with the update of the method as it is in use. All that runs methods finds them by it.
 template <Method method>

@@ -95,8 +95,10 @@ std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T
       }
     };
     launch_with(std::false_type{}, sweeps);
-    if (!rules.evaluates_all) {
-      launch_with(std::true_type{}, 1);
+    if constexpr (!moves_nearly_all<Update>) {
+      if (!rules.evaluates_all) {
+        launch_with(std::true_type{}, 1);
+      }
     }
   });
   return launches;
