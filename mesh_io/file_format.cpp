@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/codec.h"
 
@@ -24,10 +24,7 @@ const FormatDescription& described(FileFormat format) {
 }
 
 std::string last_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 }  // namespace

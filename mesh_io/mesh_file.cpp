@@ -11,6 +11,7 @@
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"
@@ -53,11 +54,9 @@ void replace_annotations(std::vector<DataArray>& arrays, std::span<const DataArr
 
 /// What has_strips() as a format holds it that has no strips.
 std::string describe_strips(const MeshDocument& document, const MeshDocument& expanded, FileFormat target) {
-  std::string name(to_string(target));
-  std::ranges::transform(name, name.begin(), [](char c) { return static_cast<char>(c - 'a' + 'A'); });
   const auto strips = std::ranges::count(document.cells.types, cell_type::triangle_strip);
   const std::size_t triangles = expanded.cells.size() + static_cast<std::size_t>(strips) - document.cells.size();
-  return name + " holds no triangle strips: " + counted(strips, "is", "are") + " written as " +
+  return upper_case(to_string(target)) + " holds no triangle strips: " + counted(strips, "is", "are") + " written as " +
          counted(triangles, "triangle", "triangles");
 }
 

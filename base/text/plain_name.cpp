@@ -1,15 +1,15 @@
 #include "trismooth/base/text/plain_name.h"
 
+#include "trismooth/base/text/letter_case.h"
+
 namespace trismooth {
 
 std::string plain_name(std::string_view name) {
   std::string plain;
   for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || byte >= 0x80) {
-      plain += c;
-    } else if (c >= 'A' && c <= 'Z') {
-      plain += static_cast<char>(c - 'A' + 'a');
+    const char lower = lower_letter(c);
+    if ((lower >= 'a' && lower <= 'z') || (c >= '0' && c <= '9') || static_cast<unsigned char>(c) >= 0x80) {
+      plain += lower;
     }
   }
   return plain;

@@ -1,19 +1,14 @@
 #include "trismooth/base/text/suggestion.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <vector>
+
+#include "trismooth/base/text/letter_case.h"
 
 namespace trismooth {
 
 namespace {
-
-std::string in_lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 /// F. J. Damerau: A technique for computer detection and correction of spelling errors. Communications of the ACM 7(3),
 /// 171-176, 1964; each letter takes part in one swap at most.
@@ -43,7 +38,7 @@ std::size_t most_errors(std::size_t letters) {
 /// The one candidate that begins with `start`, or null.
 const std::string* only_one_beginning_with(std::string_view start, std::span<const std::string> candidates) {
   constexpr std::size_t least_letters = 3;
-  const auto begins = [&](const std::string& candidate) { return in_lower_case(candidate).starts_with(start); };
+  const auto begins = [&](const std::string& candidate) { return lower_case(candidate).starts_with(start); };
   const bool is_one = start.size() >= least_letters && std::ranges::count_if(candidates, begins) == 1;
   return is_one ? &*std::ranges::find_if(candidates, begins) : nullptr;
 }
@@ -55,11 +50,11 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   if (word.empty() || word.size() > longest) {
     return {};
   }
-  const std::string typed = in_lower_case(word);
+  const std::string typed = lower_case(word);
   const std::string* best = nullptr;
   std::size_t least = typed.size();
   for (const std::string& candidate : candidates) {
-    const std::size_t errors = distance(typed, in_lower_case(candidate));
+    const std::size_t errors = distance(typed, lower_case(candidate));
     if (errors < least && errors <= most_errors(std::max(typed.size(), candidate.size()))) {
       least = errors;
       best = &candidate;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/adcirc/adcirc_boundary.h"
 #include "trismooth/mesh_io/document/cells/boundary_edges.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
@@ -22,11 +22,7 @@ using DirectedEdge = std::array<std::int32_t, 2>;
 
 /// Whether water flows through what has that name; nothing where it says neither that nor that it is land.
 std::optional<bool> is_open_by_name(std::string_view name) {
-  const auto begins_with = [name](std::string_view word) {
-    return name.size() >= word.size() && std::ranges::equal(name.substr(0, word.size()), word, {}, [](char c) {
-             return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-           });
-  };
+  const auto begins_with = [name](std::string_view word) { return same_letters(name.substr(0, word.size()), word); };
   if (begins_with("open")) {
     return true;
   }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "trismooth/base/text/letter_case.h"
 
 namespace trismooth {
 
@@ -40,9 +41,7 @@ std::optional<Compression> compression_of(std::string_view bytes) {
 }
 
 std::optional<Compression> compression_named(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   const auto* const found = std::ranges::find(compressions, extension, &Compression::extension);
   return found == compressions.end() ? std::nullopt : std::optional(*found);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/line_parts.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -11,16 +12,12 @@ namespace trismooth {
 
 namespace {
 
-char upper_case_of_inp(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
 /// In upper case, without blanks.
 std::string squeezed(std::string_view text) {
   std::string changed;
   for (const char c : text) {
     if (!is_blank(c)) {
-      changed += upper_case_of_inp(c);
+      changed += upper_letter(c);
     }
   }
   return changed;

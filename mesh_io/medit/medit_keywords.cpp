@@ -4,6 +4,7 @@
 #include <array>
 
 #include "trismooth/base/cell_list.h"
+#include "trismooth/base/text/letter_case.h"
 
 namespace trismooth {
 
@@ -100,11 +101,6 @@ constexpr auto known_keywords = std::to_array<MeditKeyword>({
 /// As some programs spell it.
 constexpr std::string_view other_hexahedra = "Hexaedra";
 
-bool same_letters_of_medit(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::ranges::equal(a, b, {}, lower, lower);
-}
-
 }  // namespace
 
 std::span<const MeditKeyword> medit_keywords() {
@@ -112,11 +108,11 @@ std::span<const MeditKeyword> medit_keywords() {
 }
 
 const MeditKeyword* find_medit_keyword(std::string_view name) {
-  if (same_letters_of_medit(name, other_hexahedra)) {
+  if (same_letters(name, other_hexahedra)) {
     return find_medit_keyword("Hexahedra");
   }
   const auto* const found = std::ranges::find_if(
-      known_keywords, [name](const MeditKeyword& keyword) { return same_letters_of_medit(name, keyword.name); });
+      known_keywords, [name](const MeditKeyword& keyword) { return same_letters(name, keyword.name); });
   return found == known_keywords.end() ? nullptr : found;
 }
 

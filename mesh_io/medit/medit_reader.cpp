@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/medit/medit_binary_reader.h"
 #include "trismooth/mesh_io/medit/medit_text_reader.h"
@@ -42,9 +43,7 @@ class MeditOriginal : public OriginalFile {
 }  // namespace
 
 std::optional<bool> names_binary_medit(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = lower_case(path.extension().string());
   return extension == ".meshb" ? std::optional(true) : extension == ".mesh" ? std::optional(false) : std::nullopt;
 }
 

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/text/blanks.h"
 
 namespace trismooth {
 
 namespace {
-
-char upper_case_of_nastran(char c) {
-  return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
 
 std::string_view without_blanks_behind(std::string_view text) {
   return text.substr(0, text.find_last_not_of(blanks) + 1);
@@ -126,17 +123,15 @@ bool is_empty_nastran_line(std::string_view text) {
 }
 
 std::string nastran_key(std::string_view text) {
-  std::string key(text);
-  std::ranges::transform(key, key.begin(), upper_case_of_nastran);
-  return key;
+  return upper_case(text);
 }
 
 bool begins_with_nastran_word(std::string_view line, std::string_view word) {
   const std::string_view text = trimmed(line);
   const bool begins =
-      text.size() >= word.size() && std::equal(word.begin(), word.end(), text.begin(),
-                                               [](char wanted, char c) { return wanted == upper_case_of_nastran(c); });
-  const char next = begins && text.size() > word.size() ? upper_case_of_nastran(text[word.size()]) : ' ';
+      text.size() >= word.size() &&
+      std::equal(word.begin(), word.end(), text.begin(), [](char wanted, char c) { return wanted == upper_letter(c); });
+  const char next = begins && text.size() > word.size() ? upper_letter(text[word.size()]) : ' ';
   return begins && !(next >= 'A' && next <= 'Z') && !(next >= '0' && next <= '9');
 }
 

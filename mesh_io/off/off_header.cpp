@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/text/number_text.h"
 
 namespace trismooth {
@@ -14,8 +15,7 @@ namespace {
 constexpr std::size_t least_face_numbers = 4;  // the degree, and three vertices
 
 bool is_binary_word(std::string_view token) {
-  return std::ranges::equal(token, std::string_view("BINARY"), {},
-                            [](char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  return same_letters(token, "BINARY");
 }
 
 void read_keyword(TextScanner& scanner, OffHeader& header) {

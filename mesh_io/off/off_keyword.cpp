@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "trismooth/base/text/letter_case.h"
+
 namespace trismooth {
 
 namespace {
@@ -38,9 +40,7 @@ OffExtras OffKeyword::split(std::span<const double> row) const {
 }
 
 std::optional<OffKeyword> parse_off_keyword(std::string_view token) {
-  std::string capitals(token.substr(0, longest_keyword));
-  std::ranges::transform(capitals, capitals.begin(),
-                         [](char c) { return 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  const std::string capitals = upper_case(token.substr(0, longest_keyword));
   const std::size_t off = capitals.find("OFF");
   if (off == std::string_view::npos) {
     return std::nullopt;

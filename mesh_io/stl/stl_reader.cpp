@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/document/patched_original.h"
@@ -22,11 +23,6 @@ namespace trismooth {
 namespace {
 
 using stl_layout::number_at;
-
-/// True where the token is `word`, which is in lower case, in any case.
-bool is_word(std::string_view token, std::string_view word) {
-  return std::ranges::equal(token, word, {}, [](char c) { return 'A' <= c && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-}
 
 void require_supported(const std::filesystem::path& path, std::size_t facets) {
   if (facets > stl_layout::most_facets) {
@@ -148,7 +144,7 @@ class TextReader {
   // The words of a facet, careful ones: see read_stl_facet().
   bool expect(std::string_view word) {
     const std::string_view token = scanner_.next_token(word);
-    if (!is_word(token, word)) {
+    if (!same_letters(token, word)) {
       scanner_.fail("expected " + std::string(word) + ", got " + quoted(token));
     }
     return true;
@@ -188,17 +184,17 @@ class TextReader {
         return;
       }
       const std::string_view word = scanner_.next_token("facet or endsolid");
-      if (is_word(word, "facet")) {
+      if (same_letters(word, "facet")) {
         const std::size_t facet = facets_.size();
         require_supported(scanner_.path(), facet + 1);
         facets_.points.resize(9 * facet + 9);
         facets_.offsets.resize(9 * facet + 9);
         read_stl_facet(*this, facet, facets_);
-      } else if (is_word(word, "endsolid")) {
+      } else if (same_letters(word, "endsolid")) {
         has_end_ = true;
         scanner_.next_line();
         return;
-      } else if (is_word(word, "solid") && facets_.size() > 0) {
+      } else if (same_letters(word, "solid") && facets_.size() > 0) {
         scanner_.seek(scanner_.token_offset());
         return;
       } else {
@@ -241,7 +237,7 @@ class TextReader {
                                                     "vertex", "endloop", "endfacet", "endsolid"};
     const char first = token.empty() ? '\0' : token.front();
     const bool is_name = ('a' <= first && first <= 'z') || ('A' <= first && first <= 'Z');
-    return is_name && std::ranges::none_of(known, [token](std::string_view word) { return is_word(token, word); });
+    return is_name && std::ranges::none_of(known, [token](std::string_view word) { return same_letters(token, word); });
   }
 
   /// Those that were passed over, for a note.
@@ -260,7 +256,7 @@ class TextReader {
 bool begins_with_solid(std::string_view bytes) {
   constexpr std::string_view word = "solid";
   const std::size_t begin = std::min(bytes.find_first_not_of(" \t\v\f\r\n", begin_of_text(bytes)), bytes.size());
-  return is_word(bytes.substr(begin, word.size()), word);
+  return same_letters(bytes.substr(begin, word.size()), word);
 }
 
 /// True where the bytes behind the facets that a binary file declares look like more of them: finite numbers, and
@@ -306,7 +302,7 @@ bool is_stl(std::string_view bytes) {
   TextScanner scanner(text_head(bytes), {});
   scanner.next_line();
   const std::string_view word = scanner.peek_token();
-  return is_word(word, "facet") || is_word(word, "endsolid");
+  return same_letters(word, "facet") || same_letters(word, "endsolid");
 }
 
 MeshDocument read_stl(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers) {

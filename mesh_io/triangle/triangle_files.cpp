@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/errors.h"
 
 namespace trismooth {
@@ -14,10 +15,7 @@ bool is_upper(char c) {
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return is_upper(c) ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 }  // namespace

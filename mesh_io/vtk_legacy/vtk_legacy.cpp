@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"

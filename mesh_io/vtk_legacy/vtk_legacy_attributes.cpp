@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/array_limits.h"

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/array_description.h"

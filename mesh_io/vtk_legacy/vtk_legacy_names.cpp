@@ -5,6 +5,8 @@
 #include <charconv>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
+
 namespace trismooth {
 
 namespace {
@@ -71,20 +73,6 @@ std::string_view vtk_legacy_type_name(ScalarType type) {
              legacy_type_names,
              [type](const auto& named) { return named.second.kind == Kind::numbers && named.second.scalar == type; })
       ->first;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return lower;
-}
-
-std::string upper_case(std::string_view text) {
-  std::string upper(text);
-  std::ranges::transform(upper, upper.begin(),
-                         [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return upper;
 }
 
 std::string decode_vtk_name(std::string_view encoded) {

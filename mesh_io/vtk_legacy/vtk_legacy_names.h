@@ -24,11 +24,6 @@ std::optional<VtkLegacyType> vtk_legacy_type(std::string_view name);
 /// The name under which every version of VTK since 8 reads numbers of `type` with the same width on every system.
 std::string_view vtk_legacy_type_name(ScalarType type);
 
-/// `text` in lower case (ASCII letters only): keywords are compared in this form.
-std::string lower_case(std::string_view text);
-/// `text` in upper case (ASCII letters only): messages show keywords in this form.
-std::string upper_case(std::string_view text);
-
 /// The name behind its %-encoded form in the file ("heat%20flux" is "heat flux"); a '%' that starts no code stays.
 std::string decode_vtk_name(std::string_view encoded);
 

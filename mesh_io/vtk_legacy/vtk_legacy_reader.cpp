@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/bytes/exact_integers.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/cells/cell_size.h"

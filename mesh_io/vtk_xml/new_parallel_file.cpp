@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/vtk_xml/xml_names.h"
 
 namespace trismooth {
@@ -15,7 +16,7 @@ std::string vtk_name_of(ScalarType type) {
   if (name.starts_with("uint")) {
     name.replace(0, 4, "UInt");
   } else {
-    name.front() = static_cast<char>(name.front() - 'a' + 'A');
+    name.front() = upper_letter(name.front());
   }
   return name;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -9,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/mesh_io/bytes/file_content.h"
 
 namespace trismooth {
@@ -24,9 +24,7 @@ struct ReportFormat {
 /// names all that there are.
 template <class Writer>
 Writer writer_for(const std::filesystem::path& path, std::span<const ReportFormat<Writer>> formats) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_case(path.extension().string());
   std::string known;
   for (std::size_t i = 0; i < formats.size(); ++i) {
     if (formats[i].extension == extension) {

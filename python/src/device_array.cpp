@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "trismooth/python/errors.h"
+#include "trismooth/python/text.h"
 
 namespace nb = nanobind;
 
@@ -37,18 +38,11 @@ char DeviceArray::kind() const {
 }
 
 std::string DeviceArray::shape_text() const {
-  std::string text = "(";
-  for (std::size_t d = 0; d < dimensions(); ++d) {
-    text += (d > 0 ? ", " : "") + std::to_string(extent(d));
-  }
-  return text + (dimensions() == 1 ? ",)" : ")");
+  return shape_text_of(*this);
 }
 
 std::string DeviceArray::type_text() const {
-  if (kind() == '?') {
-    return "bool";
-  }
-  return (kind() == 'f' ? "float" : kind() == 'i' ? "int" : "uint") + std::to_string(8 * item_size());
+  return type_text_of(*this, kind());
 }
 
 cuda::StridedRows DeviceArray::rows(std::int32_t columns, std::int32_t first) const {

@@ -8,6 +8,7 @@
 
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/python/errors.h"
+#include "trismooth/python/text.h"
 
 namespace nb = nanobind;
 
@@ -145,18 +146,11 @@ HostArray::~HostArray() {
 }
 
 std::string HostArray::shape_text() const {
-  std::string text = "(";
-  for (std::size_t d = 0; d < dimensions(); ++d) {
-    text += (d > 0 ? ", " : "") + std::to_string(extent(d));
-  }
-  return text + (dimensions() == 1 ? ",)" : ")");
+  return shape_text_of(*this);
 }
 
 std::string HostArray::type_text() const {
-  if (kind_ == '?') {
-    return "bool";
-  }
-  return (kind_ == 'f' ? "float" : kind_ == 'i' ? "int" : "uint") + std::to_string(8 * item_size());
+  return type_text_of(*this, kind_);
 }
 
 bool HostArray::is_contiguous() const {

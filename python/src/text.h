@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,24 @@ inline std::string bytes_of_text(nanobind::handle text) {
   }
   const auto view = nanobind::borrow<nanobind::bytes>(bytes);
   return {view.c_str(), view.size()};
+}
+
+/// The shape of an array as NumPy writes it, "(3, 2)", and the name of its type, "float64", for messages: of arrays
+/// with dimensions(), extent(d) and item_size().
+template <class Array>
+std::string shape_text_of(const Array& array) {
+  std::string text = "(";
+  for (std::size_t d = 0; d < array.dimensions(); ++d) {
+    text += (d > 0 ? ", " : "") + std::to_string(array.extent(d));
+  }
+  return text + (array.dimensions() == 1 ? ",)" : ")");
+}
+template <class Array>
+std::string type_text_of(const Array& array, char kind) {
+  if (kind == '?') {
+    return "bool";
+  }
+  return (kind == 'f' ? "float" : kind == 'i' ? "int" : "uint") + std::to_string(8 * array.item_size());
 }
 
 }  // namespace trismooth::python
