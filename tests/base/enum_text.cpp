@@ -1,5 +1,6 @@
 #include "trismooth/base/enum_text.h"
 
+#include <array>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -50,6 +51,14 @@ TEST_CASE("the texts are those of the command line and the JSON report") {
   CHECK(to_string(trismooth::Form::swap) == "a");
   CHECK(to_string(trismooth::StopReason::quality_target) == "quality_target");
   CHECK(to_string(trismooth::StopReason::few_moves) == "few_moves");
+}
+
+TEST_CASE("the values of an enumeration are those of its texts, and help says what each stands for") {
+  CHECK(trismooth::values_of<trismooth::Form>() == std::array{trismooth::Form::swap, trismooth::Form::in_place});
+  const std::string help = trismooth::explained_texts<trismooth::Method>();
+  CHECK(help.starts_with("smart: to the mean of the neighbours, where the worst triangle around gets better; "));
+  CHECK(help.find("; laplacian: always; weighted: ") != std::string::npos);
+  CHECK_FALSE(help.ends_with("; "));
 }
 
 TEST_CASE("a bad value's message says what it is and which are valid") {
