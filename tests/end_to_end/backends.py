@@ -5,7 +5,6 @@ A test that needs a device, or needs that there is none, is skipped elsewhere an
 
 import itertools
 import json
-import os
 import re
 
 import sample_meshes
@@ -28,10 +27,6 @@ class BackendTest(tool.ToolTest):
         if not self.has_device:
             self.skipTest("there is no CUDA device")
 
-    def require_no_device(self):
-        if self.has_device:
-            self.skipTest("there is a CUDA device")
-
     def require_built(self):
         if not self.is_built:
             self.skipTest("this build has no CUDA")
@@ -52,16 +47,6 @@ class Availability(BackendTest):
         else:
             self.assertRegex(self.info, r"(?m)^no device: +cudaError\w+ \(")
 
-    def test_cuda_that_cannot_be_had_is_an_error_of_its_own(self):
-        self.require_no_device()
-        for name in ("plate.off", "missing.off"):  # told before anything is read
-            with self.subTest(name):
-                outcome = self.run_tool("smooth", name, "out.off", "--backend", "cuda", expect=NO_DEVICE)
-                self.assertRegex(outcome.err, r"cudaError\w+ .*--backend cpu" if self.is_built else "TRISMOOTH_CUDA")
-                self.assertEqual(len(outcome.err.splitlines()), 1)
-                self.assertEqual(outcome.out, "")
-        self.assertEqual(os.listdir(self.folder), ["plate.off"])
-
     def test_a_driver_that_shows_no_device_stops_cuda_and_not_the_cpu(self):
         self.require_built()
         hidden = {"CUDA_VISIBLE_DEVICES": ""}
@@ -70,22 +55,6 @@ class Availability(BackendTest):
                                 environment=hidden)
         self.assertRegex(outcome.err, r"cudaError\w+")
         self.run_tool("smooth", "plate.off", "out.off", environment=hidden)
-
-    def test_unordered_needs_cuda(self):
-        unordered = ("smooth", "plate.off", "out.off", "--order", "unordered", "--execution", "single-block")
-        outcome = self.run_tool(*unordered, "--backend", "cpu", expect=WRONG_USAGE)
-        self.assertRegex(outcome.err, "needs the CUDA backend")
-        if not self.has_device:
-            outcome = self.run_tool(*unordered, expect=NO_DEVICE if self.is_built else WRONG_USAGE)
-            self.assertRegex(outcome.err, r"cudaError\w+" if self.is_built else "needs the CUDA backend")
-        self.assertFalse(os.path.exists(self.path("out.off")))
-
-    def test_cdp_needs_a_build_with_it(self):
-        if not self.is_built or self.has_cdp:
-            self.skipTest("this build has CUDA dynamic parallelism, or no CUDA at all")
-        outcome = self.run_tool("smooth", "plate.off", "out.off", "--backend", "cuda", "--execution", "cdp",
-                                expect=NO_DEVICE)
-        self.assertRegex(outcome.err, "dynamic parallelism.*TRISMOOTH_CDP")
 
 
 class Auto(BackendTest):

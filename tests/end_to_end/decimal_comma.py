@@ -49,25 +49,6 @@ class DecimalComma(tool.ToolTest):
             outputs.append(self.read(output))
         return outcomes, outputs
 
-    def test_every_sample_of_every_format_gives_the_same_bytes(self):
-        for name, content in sample_meshes.every_sample().items():
-            with self.subTest(name):
-                self.write(name, content)
-                output = "out" + os.path.splitext(name)[1]
-                outcomes, outputs = self.both("smooth", name, output, "--quiet", output=output)
-                self.assertEqual(outcomes[0].err, outcomes[1].err)
-                self.assertNotEqual(outputs[0], content)
-                self.assertTrue(outputs[0] == outputs[1], "the bytes differ")
-
-    def test_conversions_give_the_same_bytes(self):
-        for source in ("inline_zlib.vtu", "grid_ascii_3.0_double.vtk", "plain.off"):
-            self.write(source, sample_meshes.every_sample()[source])
-            for extension in ("off", "obj", "ply", "stl", "vtk", "vtu", "vtp"):
-                with self.subTest(source, to=extension):
-                    output = "converted." + extension
-                    _, outputs = self.both("smooth", source, output, "--quiet", output=output)
-                    self.assertTrue(outputs[0] == outputs[1], "the bytes differ")
-
     def test_reports_and_what_is_printed_have_points(self):
         self.write("plate.vtk", sample_meshes.legacy_vtk(sample_meshes.Grid(20)))
         counts = []

@@ -5,7 +5,6 @@ import json
 import os
 import pty
 import random
-import re
 import select
 import signal
 import subprocess
@@ -219,41 +218,6 @@ class Smooth(KilledTest):
 
 
 class OtherCommands(KilledTest):
-
-    def test_generate(self):
-        arguments = ("generate", "out.vtu", "--vertices", "6000")
-        folder = self.prepare()
-        begin = time.monotonic()
-        self.assertEqual(Run(folder, *arguments).kill(), DONE)
-        duration = time.monotonic() - begin
-        whole = self.content(folder, "out.vtu")
-        chance = random.Random(22)
-
-        def one(number, delay):
-            folder = self.prepare()
-            run = Run(folder, *arguments)
-            time.sleep(delay)
-            code = run.kill(number)
-            if code == -number and number != signal.SIGKILL:
-                # Before the program could ask to be told.
-                self.assertEqual(self.content(folder, "out.vtu"), PRECIOUS)
-                self.assertEqual(sorted(os.listdir(folder)), ["out.vtu", "report.json"])
-                return code
-            output = self.content(folder, "out.vtu")
-            self.assertIn(output, (PRECIOUS, whole))
-            if number != signal.SIGKILL:
-                self.assertIn((code, output), ((CANCELLED, PRECIOUS), (DONE, whole)))
-                self.assertEqual(run.message(), "" if code == DONE else "trismooth: error: cancelled\r\n")
-                self.assertEqual(sorted(os.listdir(folder)), ["out.vtu", "report.json"])
-            return code
-
-        codes = {}
-        with concurrent.futures.ThreadPoolExecutor(AT_A_TIME) as pool:
-            tasks = [pool.submit(one, number, duration * chance.random()) for number in
-                     (signal.SIGKILL, signal.SIGINT, signal.SIGTERM, signal.SIGHUP) for _ in range(30)]
-            for task in tasks:
-                codes[task.result()] = codes.get(task.result(), 0) + 1
-        print(f"\ngenerate: exit codes {codes}")
 
     def interrupt_when(self, ready, *arguments, signals=1, stderr=subprocess.PIPE):
         process = subprocess.Popen([tool.program, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,

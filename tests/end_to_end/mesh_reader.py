@@ -87,99 +87,6 @@ def read_off(content):
     return mesh
 
 
-def read_obj(content):
-    mesh = Mesh(content)
-    current, named = {b"usemtl": 0, b"g": 0}, {b"usemtl": [], b"g": []}
-    joined = re.sub(rb"\\\r?\n", lambda match: b" " * len(match.group()), content)
-    for line in lines_of(joined):
-        words = [joined[begin:end] for begin, end in line]
-        if words[0] == b"v":
-            mesh.points.append(tuple(map(float, words[1:4])))
-            mesh.spans.append([line[1:4]])
-        elif words[0] in current:
-            current[words[0]] = words[1]
-        elif words[0] == b"f":
-            for keyword, name in current.items():
-                named[keyword].append((name,))
-            numbers = [int(word.split(b"/")[0]) for word in words[1:]]
-            mesh.cells.append((polygon_type(len(numbers)),
-                               tuple(n - 1 if n > 0 else len(mesh.points) + n for n in numbers)))
-    for keyword, array in ((b"usemtl", "material"), (b"g", "group")):
-        if any(name for name, in named[keyword]):
-            mesh.cell_arrays[array] = named[keyword]
-    return mesh
-
-
-PLY_CODES = {"char": "b", "int8": "b", "uchar": "B", "uint8": "B", "short": "h", "int16": "h", "ushort": "H",
-             "uint16": "H", "int": "i", "int32": "i", "uint": "I", "uint32": "I", "float": "f", "float32": "f",
-             "double": "d", "float64": "d"}
-
-
-def read_ply(content):
-    mesh = Mesh(content)
-    head_end = re.search(rb"end_header\r?\n", content).end()
-    elements = []
-    for line in content[:head_end].decode().splitlines():
-        words = line.split()
-        if words[0] == "format":
-            order = {"ascii": None, "binary_little_endian": "<", "binary_big_endian": ">"}[words[1]]
-        elif words[0] == "element":
-            elements.append((words[1], int(words[2]), []))
-        elif words[0] == "property":
-            elements[-1][2].append((words[-1], [PLY_CODES[word] for word in words[1:-1] if word != "list"]))
-    position = head_end
-    stream = iter(tokens_of(content, head_end, len(content))) if order is None else None
-
-    def take(code):
-        nonlocal position
-        if order is None:
-            span = next(stream)
-            value = float(content[span[0]:span[1]])
-            value = as_float32(value) if code == "f" else value
-            return (value if code in "fd" else int(value)), span
-        span = (position, position + struct.calcsize("<" + code))
-        position = span[1]
-        return struct.unpack(order + code, content[span[0]:span[1]])[0], span
-
-    for name, count, properties in elements:
-        for _ in range(count):
-            row = {}
-            for key, codes in properties:
-                value = take(codes[0])
-                row[key] = [take(codes[1])[0] for _ in range(value[0])] if len(codes) == 2 else value
-            if name == "vertex":
-                mesh.points.append(tuple(row[axis][0] for axis in "xyz"))
-                mesh.spans.append([[row[axis][1] for axis in "xyz"]])
-            elif name == "face":
-                vertices = tuple(row.get("vertex_indices") or row.get("vertex_index"))
-                mesh.cells.append((polygon_type(len(vertices)), vertices))
-    return mesh
-
-
-def read_stl(content):
-    mesh = Mesh(content)
-    corners = []
-    facet_size, head_size = 50, 84
-    if len(content) >= head_size and len(content) == head_size + facet_size * struct.unpack("<I", content[80:84])[0]:
-        for begin in range(head_size, len(content), facet_size):
-            for corner in range(1, 4):
-                spans = [(begin + 12 * corner + 4 * i, begin + 12 * corner + 4 * i + 4) for i in range(3)]
-                corners.append((tuple(struct.unpack("<f", content[a:b])[0] for a, b in spans), spans))
-    else:
-        for match in re.finditer(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", content, re.IGNORECASE):
-            corners.append((tuple(float(match.group(i)) for i in (1, 2, 3)), [match.span(i) for i in (1, 2, 3)]))
-    numbers = {}
-    for point, spans in corners:
-        number = numbers.setdefault(point, len(numbers))
-        if number == len(mesh.points):
-            mesh.points.append(point)
-            mesh.spans.append([])
-        mesh.spans[number].append(spans)
-    vertices = [numbers[point] for point, _ in corners]
-    mesh.cells = [(TRIANGLE, tuple(vertices[i:i + 3])) for i in range(0, len(vertices), 3)]
-    return mesh
-
-
 VTK_CODES = {"char": "b", "unsigned_char": "B", "short": "h", "unsigned_short": "H", "int": "i", "unsigned_int": "I",
              "long": "q", "unsigned_long": "Q", "vtktypeint64": "q", "vtkidtype": "i", "float": "f", "double": "d"}
 
@@ -326,4 +233,4 @@ def read(path):
         content = file.read()
     if extension == ".vtk":
         return LegacyVtk(content).mesh
-    return {".off": read_off, ".obj": read_obj, ".ply": read_ply, ".stl": read_stl}[extension](content)
+    return read_off(content)

@@ -133,18 +133,6 @@ class Changes(OutputsTest):
         os.remove(self.path("pipe.off"))
         return outcome
 
-    def test_the_folder_of_the_target_vanishes(self):
-        for target in ("folder/out.off", "folder/out.vtu"):
-            with self.subTest(target):
-                os.mkdir(self.path("folder"))
-                outcome = self.after(lambda: os.rmdir(self.path("folder")), "smooth", "pipe.off", target)
-                self.assert_told(outcome, target, "No such file or directory")
-                self.assertFalse(os.path.exists(self.path("folder")))
-
-    def test_the_target_becomes_a_folder(self):
-        outcome = self.after(lambda: os.mkdir(self.path("out.off")), "smooth", "pipe.off", "out.off")
-        self.assert_told(outcome, "out.off", "is a folder")
-
     def test_the_folder_of_a_report_vanishes_and_no_mesh_is_there(self):
         os.mkdir(self.path("folder"))
         outcome = self.after(lambda: os.rmdir(self.path("folder")), "smooth", "pipe.off", "out.off", "--report",
@@ -152,42 +140,8 @@ class Changes(OutputsTest):
         self.assert_told(outcome, "folder/r.json", "No such file or directory")
         self.assertFalse(os.path.exists(self.path("out.off")))
 
-    def test_somebody_else_writes_the_target_and_the_last_one_wins(self):
-        outcome = self.after(lambda: self.write("out.off", "of somebody else"), "smooth", "pipe.off", "out.off")
-        self.assertEqual(outcome.code, DONE, outcome)
-        self.run_tool("smooth", "plate.off", "whole.off")
-        self.assertEqual(self.read("out.off"), self.read("whole.off"))
-
 
 class Names(OutputsTest):
-
-    def test_links_and_the_longest_names(self):
-        self.run_tool("smooth", "plate.off", "whole.off")
-        whole = self.read("whole.off")
-        os.mkdir(self.path("elsewhere"))
-        os.symlink("elsewhere/new.off", self.path("dangling.off"))
-        os.symlink("nowhere/new.off", self.path("nowhere.off"))
-        self.write("one.off", "precious")
-        os.link(self.path("one.off"), self.path("other.off"))
-        longest = "x" * 251 + ".off"
-
-        self.run_tool("smooth", "plate.off", "dangling.off")
-        self.assertTrue(os.path.islink(self.path("dangling.off")))
-        self.assertEqual(os.listdir(self.path("elsewhere")), ["new.off"])
-        self.assertEqual(self.read("elsewhere/new.off"), whole)
-
-        outcome = self.run_tool("smooth", "plate.off", "nowhere.off", expect=NOT_WRITTEN)
-        self.assert_told(outcome, "nowhere.off", "No such file or directory")
-
-        # The name is given to the new file; another name of the old one keeps that.
-        self.run_tool("smooth", "plate.off", "one.off")
-        self.assertEqual(self.read("one.off"), whole)
-        self.assertEqual(self.read("other.off"), b"precious")
-
-        self.run_tool("smooth", "plate.off", longest, "--report", "r" * 250 + ".json")
-        self.assertEqual(self.read(longest), whole)
-        self.assert_told(self.run_tool("smooth", "plate.off", "x" + longest, expect=NOT_WRITTEN), "x" + longest,
-                         "File name too long")
 
     def test_input_and_output_are_one_file_under_two_names(self):
         self.run_tool("smooth", "plate.off", "whole.off")
@@ -249,21 +203,6 @@ class StandardStreams(OutputsTest):
         self.assertEqual(self.read("out.vtu"), self.read("whole.vtu"))
         self.assert_no_temporary_files()
         os.remove(self.path("out.vtu"))
-
-    def test_a_standard_output_that_takes_nothing(self):
-        with open("/dev/full", "wb") as full:
-            for arguments in (("smooth", "plate.vtu", "out.vtu"), ("smooth", "plate.vtu", "out.vtu", "--require",
-                                                                   "min_shape>2"),
-                              ("quality", "plate.off"), ("generate", "out.vtu", "--vertices", "9"), ("info",),
-                              ("--help",), ("bench", "--sizes", "100", "--runs", "1", "--versions", "cpu")):
-                with self.subTest(arguments):
-                    outcome = self.end(self.start(*arguments, stdout=full))
-                    self.assert_told(outcome, "standard output", "No space left on device")
-                    self.assertFalse(os.path.exists(self.path("out.vtu")))
-                    self.assert_no_temporary_files()
-            outcome = self.end(self.start("smooth", "plate.vtu", "out.vtu", "--quiet", stdout=full))
-            self.assertEqual((outcome.code, outcome.err), (DONE, ""))
-            self.assert_whole()
 
     def test_a_reader_of_the_standard_output_that_goes_away(self):
         for _ in range(10):

@@ -45,38 +45,27 @@ def coordinates(point):
     return " ".join(repr(x) if x != int(x) else str(int(x)) for x in point)
 
 
-def off(grid, keyword="OFF", fields=lambda i: "", face_fields=lambda i: "", newline="\n", comment=False, mark=b"",
-        counts_on_keyword_line=False, final_newline=True):
-    counts = f"{len(grid.points)} {len(grid.polygons())} 0"
-    lines = [f"{keyword} {counts}"] if counts_on_keyword_line else [keyword] * bool(keyword) + [counts]
+def off(grid, keyword="OFF", fields=lambda i: "", newline="\n", comment=False):
+    lines = [keyword, f"{len(grid.points)} {len(grid.polygons())} 0"]
     rows = [coordinates(p) + fields(i) for i, p in enumerate(grid.points)]
     if comment:
         lines[1:1] = ["# made for a test", ""]
         rows = [f"  {row}\t# vertex {i}" if i % 3 else row for i, row in enumerate(rows)]
     lines += rows
-    lines += [f"{len(c)} {' '.join(map(str, c))}{face_fields(i)}" for i, c in enumerate(grid.polygons())]
-    return mark + (newline.join(lines) + newline * final_newline).encode()
-
-
-def obj(grid, newline="\n", relative=False, textures=False, material=False):
-    count = len(grid.points)
-    lines = ["# made for a test", "mtllib plate.mtl", "o plate"]
-    lines += [f"v {coordinates(p)}" + ("  # corner" if i % 5 == 0 else "") for i, p in enumerate(grid.points)]
-    if textures:
-        lines += ["vt 0.5 0.25", "vn 0 0 1"]
-    lines.append("g lower")
-    for i, cell in enumerate(grid.polygons()):
-        if i == len(grid.polygons()) // 2:
-            lines += ["g upper", "s off"] + ["usemtl steel"] * material
-        numbers = [v - count if relative else v + 1 for v in cell]
-        lines.append("f " + " ".join(f"{v}/1/1" if textures else str(v) for v in numbers))
+    lines += [f"{len(c)} {' '.join(map(str, c))}" for c in grid.polygons()]
     return (newline.join(lines) + newline).encode()
 
 
-def ply(grid, encoding, scalar="double", list_name="vertex_indices"):
+def obj(grid):
+    lines = ["# made for a test", "mtllib plate.mtl", "o plate", *(f"v {coordinates(p)}" for p in grid.points), "g lower"]
+    lines += ["f " + " ".join(str(v + 1) for v in cell) for cell in grid.polygons()]
+    return ("\n".join(lines) + "\n").encode()
+
+
+def ply(grid, encoding, scalar="double"):
     head = ["ply", f"format {encoding} 1.0", "comment made for a test", f"element vertex {len(grid.points)}"]
     head += ["property uchar quality"] + [f"property {scalar} {axis}" for axis in "xyz"] + ["property short tag"]
-    head += [f"element face {len(grid.polygons())}", f"property list uchar int {list_name}", "property uchar red"]
+    head += [f"element face {len(grid.polygons())}", "property list uchar int vertex_indices", "property uchar red"]
     head += ["element edge 2", "property int vertex1", "property int vertex2", "end_header", ""]
     text = "\n".join(head).encode()
     code = {"double": "d", "float": "f"}[scalar]
@@ -224,56 +213,3 @@ def vtp(grid, mode="ascii", scalar="Float64", **spelling):
     for section, cells in (("Verts", []), ("Lines", lines), ("Strips", []), ("Polys", grid.polygons())):
         body += f"<{section}>\n".encode() + writer.cells(cells) + f"</{section}>\n".encode()
     return writer.file("PolyData", body + b"</Piece>\n")
-
-
-def every_sample():
-    """{file name: bytes}."""
-    plain, mixed = Grid(), Grid(others=True)
-    colour = lambda i: f" {i % 256} {i * 7 % 256} 9 255"
-    samples = {
-        "plain.off": off(plain),
-        "quads.off": off(mixed),
-        "comments.off": off(plain, comment=True),
-        "crlf.off": off(plain, newline="\r\n"),
-        "cr.off": off(plain, newline="\r"),
-        "mark.off": off(plain, mark=b"\xef\xbb\xbf"),
-        "counts.off": off(plain, counts_on_keyword_line=True),
-        "no_keyword.off": off(plain, keyword=""),
-        "no_final_newline.off": off(plain, final_newline=False),
-        "face_colours.off": off(plain, face_fields=lambda i: " 0.5 0.25 1.0 1.0"),
-        "coff.off": off(plain, "COFF", colour),
-        "noff.off": off(plain, "NOFF", lambda i: " 0 0 1"),
-        "stcnoff.off": off(plain, "STCNOFF", lambda i: f" 0 0 1{colour(i)} 0.5 0.125", comment=True),
-        "groups.obj": obj(plain),
-        "materials.obj": obj(plain, material=True),
-        "relative.obj": obj(plain, relative=True, textures=True, newline="\r\n"),
-        "ascii.stl": stl(plain, False),
-        "binary.stl": stl(plain, True),
-        "binary_solid.stl": stl(plain, True, b"solid that is none"),
-    }
-    for encoding in ("ascii", "binary_little_endian", "binary_big_endian"):
-        for scalar in ("double", "float"):
-            samples[f"{encoding}_{scalar}.ply"] = ply(mixed, encoding, scalar)
-    samples["vertex_index.ply"] = ply(plain, "ascii", list_name="vertex_index")
-    for polydata in (False, True):
-        for binary in (False, True):
-            for version in ("2.0", "3.0", "5.1"):
-                for scalar in ("double", "float"):
-                    name = f"{'poly' if polydata else 'grid'}_{'binary' if binary else 'ascii'}_{version}_{scalar}.vtk"
-                    samples[name] = legacy_vtk(mixed, binary, version, polydata, scalar)
-    spellings = {
-        "ascii": {"mode": "ascii"},
-        "inline": {"mode": "binary"},
-        "inline_zlib": {"mode": "binary", "compressed": True},
-        "inline_wide_zlib": {"mode": "binary", "compressed": True, "word": "UInt64"},
-        "appended_raw": {"mode": "appended raw", "word": "UInt64"},
-        "appended_raw_zlib": {"mode": "appended raw", "compressed": True},
-        "appended_base64": {"mode": "appended base64"},
-        "appended_base64_zlib": {"mode": "appended base64", "compressed": True},
-        "big_endian": {"mode": "binary", "order": ">"},
-    }
-    for name, spelling in spellings.items():
-        samples[f"{name}.vtu"] = vtu(mixed, **spelling)
-        samples[f"{name}.vtp"] = vtp(mixed, **spelling)
-    samples["float32.vtu"] = vtu(mixed, "appended raw", "Float32", compressed=True)
-    return samples

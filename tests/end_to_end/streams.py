@@ -103,11 +103,6 @@ class Streams(StreamsTest):
         self.assertEqual(code, BAD_INPUT)
         self.assertRegex(err, "standard input: cannot be read: ")
 
-    def test_what_is_wrong_in_a_stream_is_told_with_its_line(self):
-        code, _, err = self.call("quality", "-", data=b"OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n")
-        self.assertEqual(code, BAD_INPUT)
-        self.assertRegex(err, "trismooth: error: standard input:4: ")
-
 
 class Compressed(StreamsTest):
 
@@ -125,27 +120,6 @@ class Compressed(StreamsTest):
                 self.assertEqual(code, DONE, err)
                 self.assertIn("note: the file is compressed by gzip, which its name does not say", err)
                 self.assertEqual(self.read(f"again.{extension}.gz"), written)
-
-    def test_members_are_read_one_behind_the_other(self):
-        content = self.read("plate.off")
-        half = len(content) // 2
-        self.write("plate.off.gz", gzip.compress(content[:half]) + gzip.compress(content[half:]))
-        self.assertEqual(gzip.decompress(self.smoothed("plate.off.gz", "out.off.gz")),
-                         self.smoothed("plate.off", "out.off"))
-
-    def test_damage_is_an_error_and_the_old_output_stays(self):
-        packed = gzip.compress(self.read("plate.off"))
-        self.write("out.off.gz", "precious")
-        for name, content, reason in (("cut", packed[:-9], "ends too early"), ("longer", packed + b"x", "bytes follow"),
-                                      ("sum", packed[:-8] + b"abcd" + packed[-4:], "damaged"),
-                                      ("none", self.read("plate.off"), "is not compressed by gzip"),
-                                      ("empty", b"", "is not compressed by gzip")):
-            with self.subTest(name):
-                self.write(f"{name}.off.gz", content)
-                code, _, err = self.call("smooth", f"{name}.off.gz", "out.off.gz")
-                self.assertEqual(code, BAD_INPUT)
-                self.assertRegex(err, f"^trismooth: error: {name}.off.gz: [^\n]*{reason}[^\n]*\n$")
-                self.assertEqual(self.read("out.off.gz"), b"precious")
 
 
 class Names(StreamsTest):
