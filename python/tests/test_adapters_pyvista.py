@@ -91,17 +91,6 @@ def test_height_stays() -> None:
     assert np.all(new.points[:, 2] == mesh.points[0, 2])
 
 
-@pytest.mark.parametrize("labels", [G.regions, G.regions * 0.5, np.array(["air", "steel"])[G.regions - 1]])
-@pytest.mark.parametrize("make", [poly_data, unstructured_grid])
-def test_regions_by_their_name(make: Any, labels: np.ndarray) -> None:
-    mesh = make()
-    mesh.cell_data["Material"] = labels
-    has_moved = moved(mesh, smooth(mesh).mesh)
-    assert not has_moved[G.is_interface].any()
-    assert has_moved[G.is_inside].all()
-    assert moved(mesh, smooth(mesh, regions=False).mesh)[~G.is_boundary].all()
-
-
 def test_regions_chosen() -> None:
     mesh = poly_data()
     mesh.cell_data["u"] = G.regions / 2
@@ -365,12 +354,6 @@ def test_faults_name_the_argument() -> None:
         smooth(pv.PolyData(G.points3))
     with pytest.raises(ValueError, match="^points: it has no cells"):
         smooth(pv.PolyData())
-
-
-def test_vectors_are_no_regions() -> None:
-    mesh = poly_data()
-    mesh.cell_data["material"] = np.zeros((mesh.n_cells, 3))
-    assert moved(mesh, smooth(mesh).mesh)[~G.is_boundary].all()
 
 
 needs_accessors = pytest.mark.skipif(not hasattr(pv, "register_dataset_accessor"), reason="PyVista has no accessors")

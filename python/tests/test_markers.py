@@ -68,26 +68,6 @@ def test_marked_vertices_are_held_and_named_with_the_way_out(
         assert notes == []
 
 
-@pytest.mark.parametrize("make", MAKERS)
-def test_the_array_fixed_holds_as_well(make: Callable[..., Any]) -> None:
-    mesh = make("medit:ref", MARKS)
-    mesh.point_data["fixed"] = (G.column == 3).astype(int)
-    _, moved, _ = smoothed(mesh)
-    assert np.array_equal(moved, G.is_inside & ~SEGMENT & ~ELECTRODE & (G.column != 3))
-
-
-@pytest.mark.parametrize("make", MAKERS)
-def test_numbers_and_other_names_mark_nothing(make: Callable[..., Any]) -> None:
-    _, moved, notes = smoothed(make("medit:ref", np.arange(len(G.points))))
-    assert np.array_equal(moved, G.is_inside)
-    (note,) = notes
-    assert "'medit:ref'" in note and "no marks" in note and "fixed holds vertices" in note
-    for name, markers in (("temperature", MARKS), ("medit:ref", MARKS / 2), ("medit:ref", 0 * MARKS)):
-        _, moved, notes = smoothed(make(name, markers))
-        assert np.array_equal(moved, G.is_inside)
-        assert notes == []
-
-
 def test_lines_slide_though_their_vertices_are_marked() -> None:
     line = G.vertex(0, 3) + np.arange(11)
     lines = np.column_stack([line[:-1], line[1:]])

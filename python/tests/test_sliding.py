@@ -44,35 +44,6 @@ def disc(count=64, radius=2.0):
     return points, np.concatenate(triangles)
 
 
-def area(points, triangles):
-    a, b, c = (points[triangles[:, k], :2] for k in range(3))
-    return abs((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])).sum() / 2
-
-
-def test_on_straight_lines_they_stay_on_them_and_elements_get_better():
-    points, triangles, regions, x, y = uneven_grid()
-    held = trismooth.smooth(points, triangles, regions=regions)
-    result = trismooth.smooth(points, triangles, regions=regions, slide="straight")
-    new = result.points
-    assert held.sliding is None
-    for value in (0, 6, COLUMNS):
-        np.testing.assert_array_equal(new[x == value, 0], value)
-    for value in (0, ROWS):
-        np.testing.assert_array_equal(new[y == value, 1], value)
-    corner = np.isin(x, (0, 6, COLUMNS)) & np.isin(y, (0, ROWS))
-    np.testing.assert_array_equal(new[corner], points[corner])
-    for region in (0, 1):
-        of_region = triangles[regions == region]
-        assert area(new, of_region) == pytest.approx(area(points, of_region), rel=1e-12)
-    on_lines = (np.isin(x, (0, 6, COLUMNS)) | np.isin(y, (0, ROWS))) & ~corner
-    slid = int((new[on_lines] != points[on_lines]).any(axis=1).sum())
-    assert (result.sliding.lines, result.sliding.vertices, result.sliding.slid) == (7, int(on_lines.sum()), slid)
-    assert result.sliding.largest_deviation == result.sliding.relative_deviation == 0
-    assert result.moved == int((new != points).any(axis=1).sum()) > slid > 0
-    assert result.after["shape"].min > held.after["shape"].min
-    assert result.after["shape"].mean > held.after["shape"].mean
-
-
 def test_round_bends_the_deviation_is_kept():
     # (All of the disc is flat, as it has more sectors than rings.)
     smooth = functools.partial(trismooth.smooth, *disc(), layers="smooth")
@@ -112,48 +83,6 @@ def test_lines_of_any_integer_type_and_strides(dtype):
         np.testing.assert_array_equal(trismooth.smooth(points, triangles, lines=given, slide="straight").points, expected)
 
 
-def test_a_line_ends_where_its_tag_changes():
-    points, triangles, _, x, y = uneven_grid()
-    column = np.flatnonzero(x == 6)
-    lines = np.column_stack([column[:-1], column[1:]])
-    tags = np.array(["below"] * 4 + ["above"] * 5)
-    given = {"lines": lines, "slide": "straight", "method": "mean-ratio"}
-    together = trismooth.smooth(points, triangles, **given)
-    result = trismooth.smooth(points, triangles, line_tags=tags, **given)
-    assert (together.points[column[4]] != points[column[4]]).any()
-    np.testing.assert_array_equal(result.points[column[4]], points[column[4]])
-    assert result.sliding.lines == together.sliding.lines + 1
-    assert result.sliding.vertices == together.sliding.vertices - 1
-    again = trismooth.smooth(points, triangles, line_tags=(tags == "below").astype(int) * 70 - 3, **given)
-    np.testing.assert_array_equal(again.points, result.points)
-
-
-def test_linked_vertices_slide_as_one():
-    points, triangles, _, x, y = uneven_grid()
-    left, right = np.flatnonzero(x == 0), np.flatnonzero(x == COLUMNS)
-    points[right, 1] = points[left, 1]
-    apart = trismooth.smooth(points, triangles, slide="straight").points
-    assert (apart[right, 1] != apart[left, 1]).any()
-    result = trismooth.smooth(points, triangles, slide="straight", links=np.column_stack([left, right]))
-    np.testing.assert_array_equal(result.points[right, 1], result.points[left, 1])
-    assert (result.points[left, 1] != points[left, 1]).any()
-
-
-def test_vertices_in_the_same_place_slide_together_where_that_is_wanted():
-    points, triangles, regions, x, _ = uneven_grid()
-    # Each region gets its own vertices on the interface: the faces of a crack.
-    column = np.flatnonzero(x == 6)
-    twin = np.arange(len(points))
-    twin[column] = len(points) + np.arange(len(column))
-    triangles = np.where((regions == 1)[:, None], twin[triangles], triangles)
-    points = np.concatenate([points, points[column]])
-    stay = trismooth.smooth(points, triangles, slide="straight").points
-    np.testing.assert_array_equal(stay[column], points[column])
-    new = trismooth.smooth(points, triangles, slide="straight", slide_coincident=True).points
-    assert (new[column] != points[column]).any()
-    np.testing.assert_array_equal(new[column], new[twin[column]])
-
-
 @pytest.mark.parametrize("gap", [0, 1e-10])
 def test_parts_that_touch_stay_together_and_a_warning_says_so(gap):
     points, triangles, regions, x, _ = uneven_grid()
@@ -172,14 +101,6 @@ def test_parts_that_touch_stay_together_and_a_warning_says_so(gap):
     assert not together.notes and together.sliding.in_same_place == 0
     assert (together.points[column] != points[column]).any()
     np.testing.assert_array_equal(together.points[column, 1], together.points[twin[column], 1])
-
-
-def test_what_is_fixed_does_not_slide():
-    points, triangles, regions, x, y = uneven_grid()
-    bottom = np.flatnonzero(y == 0)
-    result = trismooth.smooth(points, triangles, regions=regions, slide="curves", fixed=bottom[3:5])
-    np.testing.assert_array_equal(result.points[bottom[3:5]], points[bottom[3:5]])
-    assert (result.points[bottom[1:3]] != points[bottom[1:3]]).any()
 
 
 def test_texts_say_what_slid():
