@@ -37,8 +37,9 @@ struct Scene {
     if (!edges.empty()) {
       targets.edges = edges.data();
     }
-    return trismooth::visit_mean_ratio(targets, step,
-                                       [&](const auto& method) { return method.update(0, position, *this); });
+    return trismooth::UpdateOf<trismooth::Method::mean_ratio>::visit(
+        trismooth::MethodInUse<T>{Method::mean_ratio, targets, step},
+        [&](const auto& method) { return method.update(0, position, *this); });
   }
 
   /// The same as its definition sees it.

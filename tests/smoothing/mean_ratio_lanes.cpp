@@ -83,25 +83,26 @@ TEMPLATE_TEST_CASE(
     const MeanRatioStep<T> step{i % 3 == 0 ? T(1.5) : T(1.8), static_cast<T>(3e-4), i % 2 == 0};
     MeanRatioTargets<T> targets{stars.inverse_areas.data(), stars.largest_shares.data(), &scales};
     targets.edges = i % 5 == 0 ? stars.edges.data() : nullptr;
-    trismooth::visit_mean_ratio(targets, step, [&](const auto& method) {
-      const RingView rings = stars.rings();
-      trismooth::VertexVisits<T, std::remove_cvref_t<decltype(method)>> visits(method, rings, stars.points);
-      std::vector<std::int32_t> vertices(static_cast<std::size_t>(1 + i % count));
-      std::iota(vertices.begin(), vertices.end(), 0);
-      std::vector<VertexMove<T>> found(vertices.size());
-      visits.visit(vertices, size, [&](std::int32_t v, Point2<T> target, T squares) {
-        REQUIRE(!found[v].move.moved);
-        found[v] = {{target, true}, squares};
-      });
-      for (const std::int32_t v : vertices) {
-        CAPTURE(i, size, v);
-        const VertexMove<T> alone = method.vertex_move(v, stars.points[v], PlainRing<T>{stars.points, rings[v]});
-        REQUIRE(found[v].move.moved == alone.move.moved);
-        REQUIRE((!alone.move.moved || found[v].move.position == alone.move.position));
-        REQUIRE((!alone.move.moved || found[v].squares == alone.squares));
-        ++(alone.move.moved ? moved : stayed);
-      }
-    });
+    trismooth::UpdateOf<trismooth::Method::mean_ratio>::visit(
+        trismooth::MethodInUse<T>{Method::mean_ratio, targets, step}, [&](const auto& method) {
+          const RingView rings = stars.rings();
+          trismooth::VertexVisits<T, std::remove_cvref_t<decltype(method)>> visits(method, rings, stars.points);
+          std::vector<std::int32_t> vertices(static_cast<std::size_t>(1 + i % count));
+          std::iota(vertices.begin(), vertices.end(), 0);
+          std::vector<VertexMove<T>> found(vertices.size());
+          visits.visit(vertices, size, [&](std::int32_t v, Point2<T> target, T squares) {
+            REQUIRE(!found[v].move.moved);
+            found[v] = {{target, true}, squares};
+          });
+          for (const std::int32_t v : vertices) {
+            CAPTURE(i, size, v);
+            const VertexMove<T> alone = method.vertex_move(v, stars.points[v], PlainRing<T>{stars.points, rings[v]});
+            REQUIRE(found[v].move.moved == alone.move.moved);
+            REQUIRE((!alone.move.moved || found[v].move.position == alone.move.position));
+            REQUIRE((!alone.move.moved || found[v].squares == alone.squares));
+            ++(alone.move.moved ? moved : stayed);
+          }
+        });
   }
   CHECK(moved > (is_sanitized ? 1000 : 10000));
   CHECK(stayed > (is_sanitized ? 10 : 100));
