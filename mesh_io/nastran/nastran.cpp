@@ -172,10 +172,10 @@ void write_nastran(const std::filesystem::path& path, const MeshDocument& docume
 
 std::vector<std::string> lost_in_nastran(const MeshDocument& document) {
   const WrittenProperties properties = written_properties(document);
-  const auto written_types =
+  const auto nastran_types =
       cell_types_where([](std::uint8_t type) { return nastran_element_of_cell(type) != nullptr; });
   std::vector<std::string> sentences =
-      describe_lost_cells("Nastran", "lines, faces and solids", written_types, document.cells);
+      describe_lost_cells("Nastran", "lines, faces and solids", nastran_types, document.cells);
   for (std::vector<std::string> more : {describe_lost_arrays("Nastran", document, {.cell = properties.groups.array}),
                                         describe_lost_sets("Nastran", document)}) {
     std::ranges::move(more, std::back_inserter(sentences));

@@ -251,9 +251,8 @@ void write_unv(const std::filesystem::path& path, const MeshDocument& document, 
 
 std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   const CellGroups groups = find_cell_groups(document);
-  const auto written_types = cell_types_where([](std::uint8_t type) { return unv_shape_of_cell(type).nodes > 0; });
-  std::vector<std::string> sentences =
-      describe_lost_cells("UNV", "lines, faces and solids", written_types, document.cells);
+  const auto unv_types = cell_types_where([](std::uint8_t type) { return unv_shape_of_cell(type).nodes > 0; });
+  std::vector<std::string> sentences = describe_lost_cells("UNV", "lines, faces and solids", unv_types, document.cells);
   std::ranges::move(describe_lost_arrays("UNV", document, {.cell = groups.array}), std::back_inserter(sentences));
   std::vector<std::string> changed;
   (void)written_groups(document, groups, written_elements(document.cells), &changed);
