@@ -29,9 +29,9 @@ __device__ void raise(unsigned long long* word, unsigned long long key) {
 /// Keys of the elements of moved vertices that a thread looks at.
 class KeyTally {
  public:
-  __device__ void operator()(const JudgedVertex& a, const JudgedVertex& b, const JudgedVertex& c) {
-    if (a.moved() || b.moved() || c.moved()) {
-      const Quotients found = quotients(a, b, c);
+  __device__ void operator()(const JudgedElement& element) {
+    if (element.moved()) {
+      const Quotients found = quotients(element);
       const double worsened = worsened_quotient(found.before, found.after);
       before_ = found.before < before_ ? found.before : before_;
       worsened_ = worsened < worsened_ ? worsened : worsened_;
@@ -110,14 +110,12 @@ class OffenderSearch {
   __device__ OffenderSearch(const GuardWork& work, unsigned long long threshold, std::uint32_t* listed)
       : work_(work), threshold_(from_falling_key(threshold)), listed_(listed) {}
 
-  __device__ void operator()(const JudgedVertex& a, const JudgedVertex& b, const JudgedVertex& c) const {
-    if (!a.moved() && !b.moved() && !c.moved()) {
+  __device__ void operator()(const JudgedElement& element) const {
+    if (!element.moved()) {
       return;
     }
-    if (const Quotients found = quotients(a, b, c); offends(found.before, found.after, threshold_)) {
-      add(a);
-      add(b);
-      add(c);
+    if (const Quotients found = quotients(element); offends(found.before, found.after, threshold_)) {
+      element.for_each([&](const JudgedVertex& corner) { add(corner); });
     }
   }
 

@@ -4,7 +4,7 @@
 
 #include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/guard/stored_point.cuh"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
 namespace trismooth::cuda {
 
@@ -90,9 +90,27 @@ struct Quotients {
   double after;
 };
 
-/// canonical_quotient() of the element (a, b, c), before and after. The corner with the smallest input number is
+/// An element around a vertex.
+struct JudgedElement {
+  JudgedVertex own;
+  TriangleCorner<JudgedVertex> corner;
+
+  /// Calls visit(vertex) for all its vertices.
+  template <class Visit>
+  __device__ void for_each(const Visit& visit) const {
+    visit(own);
+    corner.for_each(visit);
+  }
+  __device__ bool moved() const {
+    return own.moved() || !corner.all([](const JudgedVertex& other) { return !other.moved(); });
+  }
+};
+
+/// The shape quotients of an element in canonical order, before and after. The corner with the smallest input number is
 /// brought to the front without branches, so that the threads of a warp divide together.
-__device__ inline Quotients quotients(const JudgedVertex& a, const JudgedVertex& b, const JudgedVertex& c) {
+__device__ inline Quotients quotients(const JudgedElement& element) {
+  const JudgedVertex& a = element.own;
+  const auto& [b, c] = element.corner;
   const bool a_first = a.input <= b.input && a.input <= c.input;
   const bool b_first = !a_first && b.input <= c.input;
   const auto pick = [&](Point2<double> if_a, Point2<double> if_b, Point2<double> if_c) {
@@ -105,8 +123,9 @@ __device__ inline Quotients quotients(const JudgedVertex& a, const JudgedVertex&
   return {quotient(a.before, b.before, c.before), quotient(a.after, b.after, c.after)};
 }
 
-/// Calls visit(own, b, c) for the elements (v, b, c) around the vertex whose corners have numbers from `lowest` on, of
-/// which v is one. Each corner is looked at once, but for one.
+/// Calls visit(element) for the elements around the vertex whose corners have numbers from `lowest` on, of which v is
+/// one. Each corner is looked at once, but for one. (A walk of its own beside for_elements_around(): many corners do not
+/// count, and a device need not wait for where these are.)
 template <class View, class Visit>
 __device__ void for_elements(const View& view, const Positions<View>& positions, std::int32_t v, std::int32_t lowest,
                              Visit& visit) {
@@ -126,7 +145,7 @@ __device__ void for_elements(const View& view, const Positions<View>& positions,
     if (counts) {
       next = positions.judged(number);
       if (has_last) {
-        visit(own, last, next);
+        visit(JudgedElement{own, {last, next}});
       }
     }
     last = next;

@@ -3,6 +3,7 @@
 #include <cuda_runtime.h>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
 /// Decides most smart moves without dividing.
 ///
@@ -60,11 +61,13 @@ __device__ inline double fused(double a, double b, double c) {
   return __fma_rn(a, b, c);
 }
 
-/// Twice the shape quotient, approximately, from two spokes and their squared lengths.
+/// Twice the shape quotient, approximately.
 template <class T>
-__device__ T approximate_quotient(Point2<T> a, Point2<T> b, T a_squared, T b_squared) {
+__device__ T approximate_quotient(const TriangleCorner<RingSpoke<T>>& corner) {
+  const Point2<T> a = corner.next.edge;
+  const Point2<T> b = corner.previous.edge;
   const T cross = fused(a.x, b.y, -(a.y * b.x));
-  const T half_sum = fused(-a.x, b.x, fused(-a.y, b.y, a_squared + b_squared));
+  const T half_sum = fused(-a.x, b.x, fused(-a.y, b.y, corner.next.squared + corner.previous.squared));
   return cross * approximate_reciprocal(half_sum);
 }
 

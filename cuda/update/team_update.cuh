@@ -89,10 +89,8 @@ __device__ __forceinline__ T sum_of_squares(Point2<T> position, const TeamRing<T
 /// The quotient of the thread's element.
 template <class T, int rounds>
 __device__ __forceinline__ T team_quotient(Point2<T> position, const TeamRing<T, rounds>& ring, int round) {
-  const Point2<T> a = ring.neighbours[round] - position;
-  const Point2<T> b = ring.followers[round] - position;
-  return shape_quotient(a, b, squared_length(a), squared_length(ring.followers[round] - ring.neighbours[round]),
-                        squared_length(b));
+  return shape_quotient(TriangleCorner<RingSpoke<T>>{spoke_to(ring.neighbours[round], position),
+                                                     spoke_to(ring.followers[round], position)});
 }
 
 template <class T, int rounds>

@@ -5,6 +5,7 @@
 #include "trismooth/cuda/update/register_ring.cuh"
 #include "trismooth/smoothing/methods/methods.h"
 #include "trismooth/smoothing/methods/one_ring_update.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
 namespace trismooth::cuda {
 
@@ -33,25 +34,20 @@ __device__ T sum_of_squares(Point2<T> position, const RegisterRing<T, capacity>&
   return sum;
 }
 
-/// Calls visit(i, a, b, a_squared, b_squared) with the spokes from `position` to neighbour i and to the next one, of
-/// each place up to the longest ring's end.
+/// Calls visit(i, corner) with the spokes from `position` to neighbour i and to the next one, of each place up to the
+/// longest ring's end. (for_elements_around() for rings in registers, which have no size that all threads share.)
 template <class T, int capacity, class Visit>
 __device__ __forceinline__ void for_spokes(Point2<T> position, const RegisterRing<T, capacity>& ring,
                                            const Visit& visit) {
-  const Point2<T> first = ring.neighbours[0] - position;
-  const T first_squared = squared_length(first);
-  Point2<T> spoke = first;
-  T squared = first_squared;
+  const RingSpoke<T> first = spoke_to(ring.neighbours[0], position);
+  RingSpoke<T> spoke = first;
   ring.for_places([&](auto i) {
-    Point2<T> next = first;
-    T next_squared = first_squared;
+    RingSpoke<T> next = first;
     if constexpr (i + 1 < capacity) {
-      next = ring.neighbours[i + 1] - position;
-      next_squared = squared_length(next);
+      next = spoke_to(ring.neighbours[i + 1], position);
     }
-    visit(i, spoke, next, squared, next_squared);
+    visit(i, TriangleCorner<RingSpoke<T>>{spoke, next});
     spoke = next;
-    squared = next_squared;
   });
 }
 
@@ -62,11 +58,11 @@ __device__ __forceinline__ T approximate_minimum(Point2<T> position, const Regis
                                                  T& squares) {
   T minimum = 2;
   squares = 0;
-  for_spokes(position, ring, [&](auto i, Point2<T> a, Point2<T> b, T a_squared, T b_squared) {
-    const T quotient = approximate_quotient(a, b, a_squared, b_squared);
+  for_spokes(position, ring, [&](auto i, const TriangleCorner<RingSpoke<T>>& corner) {
+    const T quotient = approximate_quotient(corner);
     if (i < ring.size) {
       minimum = smaller(minimum, quotient);
-      squares += a_squared;
+      squares += corner.next.squared;
     }
   });
   return minimum;

@@ -88,11 +88,10 @@ class MeanRatio {
     const T largest = targets_.largest_shares[v];
     const auto fetch = [&](int i) -> Neighbour {
       const std::int32_t number = ring.number(i);
-      return {number, ring[i], targets_.inverse_areas[number]};
+      return {ring[i], targets_.inverse_areas[number], number};
     };
-    const auto side = [&](const Neighbour& from, const Neighbour& to) {
-      return side_between<T>(from.position, to.position, own + from.inverse_area + to.inverse_area,
-                             metric(v, from.number, to.number));
+    const auto side = [&](const auto& corner) {
+      return side_of<T>(corner, own, metric(v, corner.with([](const Neighbour& of) { return of.number; })));
     };
     const auto grows = [&](bool is_candidate, Point2<T> target) {
       return is_candidate && grows_beyond(largest, position, target, ring);
@@ -141,13 +140,13 @@ class MeanRatio {
   constexpr TRISMOOTH_HOST_DEVICE const MeanRatioTargets<T>& targets() const { return targets_; }
   constexpr TRISMOOTH_HOST_DEVICE const MeanRatioStep<T>& step() const { return step_; }
 
-  /// The metric to be aimed at in a triangle, of determinant 1: that of the edges around its free corners; Euclid's
-  /// where nothing is known of these.
-  constexpr TRISMOOTH_HOST_DEVICE Metric<T> metric(std::int32_t v, std::int32_t na, std::int32_t nb) const {
+  /// The metric to be aimed at in an element around a vertex, of determinant 1: that of the edges around its free
+  /// corners; Euclid's where nothing is known of these. The corner is of numbers.
+  template <class Corner>
+  constexpr TRISMOOTH_HOST_DEVICE Metric<T> metric(std::int32_t v, const Corner& corner) const {
     if constexpr (shaped) {
       EdgeTensor<T> edges = targets_.edges[v];
-      edges.add(targets_.edges[na]);
-      edges.add(targets_.edges[nb]);
+      corner.for_each([&](std::int32_t neighbour) { edges.add(targets_.edges[neighbour]); });
       return metric_of(edges);
     } else {
       return {};
@@ -159,9 +158,9 @@ class MeanRatio {
 
   /// What is read of a neighbour.
   struct Neighbour {
-    std::int32_t number;
     Point2<T> position;
     T inverse_area;
+    std::int32_t number;
   };
 
   /// Whether a triangle whose share is above the bound would get a larger one than it has.
@@ -169,17 +168,14 @@ class MeanRatio {
   constexpr TRISMOOTH_HOST_DEVICE bool grows_beyond(T largest, Point2<T> position, Point2<T> target,
                                                     const Ring& ring) const {
     bool grows = false;
-    Point2<T> from = ring[ring.size() - 1];
-    for (int i = 0; i < ring.size(); ++i) {
-      const Point2<T> to = ring[i];
-      const T now = share_at(target, from, to);
-      grows |= now > largest && now > share_at(position, from, to);
-      from = to;
-    }
+    for_elements_around(ring, [&](const auto& corner) {
+      const auto share_at = [&](Point2<T> vertex) {
+        return share_of_error(size_of(corner.with([&](Point2<T> end) { return spoke_to(end, vertex); })));
+      };
+      const T now = share_at(target);
+      grows |= now > largest && now > share_at(position);
+    });
     return grows;
-  }
-  static constexpr TRISMOOTH_HOST_DEVICE T share_at(Point2<T> v, Point2<T> a, Point2<T> b) {
-    return share_of_error(cross(a - v, b - v), squared_length(a - v) + squared_length(b - v) + squared_length(b - a));
   }
 
   MeanRatioTargets<T> targets_;

@@ -12,6 +12,10 @@ template <class V>
 constexpr TRISMOOTH_HOST_DEVICE V share_of_error(V doubled_area, V squares) {
   return doubled_area * squares;
 }
+template <class V>
+constexpr TRISMOOTH_HOST_DEVICE V share_of_error(const ElementSize<V>& size) {
+  return share_of_error(size.doubled_area, size.squares);
+}
 
 /// The energy of a triangle:
 ///

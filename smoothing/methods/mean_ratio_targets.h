@@ -82,43 +82,43 @@ template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE MeanRatioRing<T> measure_for_mean_ratio(Point2<T> position, const Ring& ring) {
   MeanRatioRing<T> result{};
   T areas = 0;
-  Point2<T> neighbour = ring[ring.size() - 1];
-  for (int i = 0; i < ring.size(); ++i) {
-    const Point2<T> next = ring[i];
-    const Point2<T> a = neighbour - position;
-    const Point2<T> b = next - position;
-    const T area = cross(a, b);
-    ++result.sums.count;
-    if (area > T(0)) {
-      const T squares = squared_length(a) + squared_length(b) + squared_length(next - neighbour);
-      areas += area;
-      const T share = share_of_error(area, squares);
-      result.largest_share = share > result.largest_share ? share : result.largest_share;
-      result.sums.quotients +=
-          static_cast<std::uint64_t>(static_cast<double>(area / squares) * (1 / MeanRatioSums::quotient_unit));
-    }
-    neighbour = next;
-  }
+  for_elements_around(
+      ring, [&](int i) { return spoke_to<T>(ring[from_last(ring, i)], position); },
+      [&](const auto& corner) {
+        const auto [area, squares] = size_of(corner);
+        ++result.sums.count;
+        if (area > T(0)) {
+          areas += area;
+          const T share = share_of_error(area, squares);
+          result.largest_share = share > result.largest_share ? share : result.largest_share;
+          result.sums.quotients +=
+              static_cast<std::uint64_t>(static_cast<double>(area / squares) * (1 / MeanRatioSums::quotient_unit));
+        }
+      });
   result.sums.areas.add(static_cast<double>(areas));
   result.mean_area = areas / static_cast<T>(ring.size());
   return result;
 }
 
-/// The edges of the triangles around a free vertex, each as often as it is in one, in the mesh as it is before the
-/// first sweep. Triangles that are not positive do not count.
+/// Adds the edges of a triangle of these edges at its vertex, if it is positive.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE void add_edges(const TriangleCorner<Point2<T>>& corner, EdgeTensor<T>& edges) {
+  const auto& [a, b] = corner;
+  if (cross(a, b) > T(0)) {
+    edges.add(a);
+    edges.add(b);
+    edges.add(b - a);
+  }
+}
+
+/// The edges of the elements around a free vertex, each as often as it is in one, in the mesh as it is before the
+/// first sweep. Those that are not positive do not count.
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> edges_around(Point2<T> position, const Ring& ring) {
   EdgeTensor<T> edges;
-  Point2<T> last = ring[ring.size() - 1] - position;
-  for (int i = 0; i < ring.size(); ++i) {
-    const Point2<T> next = ring[i] - position;
-    if (cross(last, next) > T(0)) {
-      edges.add(last);
-      edges.add(next);
-      edges.add(next - last);
-    }
-    last = next;
-  }
+  for_elements_around(
+      ring, [&](int i) { return ring[from_last(ring, i)] - position; },
+      [&](const auto& corner) { add_edges(corner, edges); });
   return edges;
 }
 
@@ -139,12 +139,11 @@ template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE void add_sizes(std::int32_t v, Point2<T> position, const T* inverse_sizes,
                                                const Ring& ring, MeanRatioSums& sums) {
   const T own = inverse_sizes[v];
-  T last = inverse_sizes[ring.number(ring.size() - 1)];
-  for (int i = 0; i < ring.size(); ++i) {
-    const T next = inverse_sizes[ring.number(i)];
-    sums.sizes.add(static_cast<double>(T(3) / (own + last + next)));
-    last = next;
-  }
+  for_elements_around(
+      ring, [&](int i) { return inverse_sizes[ring.number(i)]; },
+      [&](const TriangleCorner<T>& corner) {
+        sums.sizes.add(static_cast<double>(T(3) / (own + corner.next + corner.previous)));
+      });
   const std::uint64_t worst = MeanRatioSums::key_of(static_cast<double>(worst_quotient(position, ring)));
   sums.worst_quotient = sums.worst_quotient > worst ? sums.worst_quotient : worst;
 }
@@ -240,23 +239,22 @@ struct FixedVertexArea {
 template <class T, class Ring, class Visit>
 constexpr TRISMOOTH_HOST_DEVICE void for_fixed_corners(Point2<T> position, const Ring& ring, std::int32_t free_count,
                                                        const Visit& visit) {
-  int last = ring.size() - 1;
-  for (int i = 0; i < ring.size(); ++i) {
-    const std::int32_t a = ring.number(last);
-    const std::int32_t b = ring.number(i);
-    if (a >= free_count || b >= free_count) {
-      const T area = cross(ring[last] - position, ring[i] - position);
-      const double positive = area > T(0) ? static_cast<double>(area) : 0;
-      const std::uint64_t times = a >= free_count && b >= free_count ? 2 : 1;
-      if (a >= free_count) {
-        visit(a, positive, times);
-      }
-      if (b >= free_count) {
-        visit(b, positive, times);
-      }
-    }
-    last = i;
-  }
+  for_elements_around(
+      ring, [](int i) { return i; },
+      [&](const auto& corner) {
+        const auto is_free = [&](int i) { return ring.number(i) < free_count; };
+        if (corner.all(is_free)) {
+          return;
+        }
+        const T area = size_of(corner.with([&](int i) { return spoke_to<T>(ring[i], position); })).doubled_area;
+        const double positive = area > T(0) ? static_cast<double>(area) : 0;
+        const std::uint64_t times = corner.all([&](int i) { return !is_free(i); }) ? 2 : 1;
+        corner.for_each([&](int i) {
+          if (!is_free(i)) {
+            visit(ring.number(i), positive, times);
+          }
+        });
+      });
 }
 
 }  // namespace trismooth

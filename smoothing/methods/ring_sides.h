@@ -7,9 +7,10 @@
 #include "trismooth/base/exact_arithmetic.h"
 #include "trismooth/base/host_device.h"
 #include "trismooth/base/point2.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
-/// The triangles around a vertex, one a side of its ring. Here T is a number, and V one or several: T itself, or lanes
-/// of it in a register, for as many vertices at once.
+/// The elements around a vertex as the mean-ratio method sees them, one a side of its ring. Here T is a number, and V
+/// one or several: T itself, or lanes of it in a register, for as many vertices at once.
 namespace trismooth {
 
 /// A symmetric tensor. The sum of e e^T over edges e says how long these are, and in which direction: a triangle is as
@@ -53,19 +54,6 @@ constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> metric_of(const EdgeTensor<T>& edg
 template <class V>
 struct EuclideanMetric {};
 
-/// The edge from a vertex to a neighbour.
-template <class V>
-struct RingSpoke {
-  Point2<V> edge;
-  V squared;  ///< its squared length
-};
-
-template <class V>
-constexpr TRISMOOTH_HOST_DEVICE RingSpoke<V> spoke_to(Point2<V> neighbour, Point2<V> position) {
-  const Point2<V> edge = neighbour - position;
-  return {edge, squared_length(edge)};
-}
-
 /// One side of a ring, and so one triangle of its vertex: what does not change where the vertex moves. `Metric`: the
 /// one in which shapes count, of determinant 1: EdgeTensor or EuclideanMetric.
 template <class V, class Metric>
@@ -76,13 +64,14 @@ struct RingSide {
   Metric metric;
 };
 
-/// That between two neighbours. `inverse_areas`: the sum of 1 / (twice the area that is aimed at) over the corners of
-/// the triangle.
-template <class T, class V, class Metric>
-constexpr TRISMOOTH_HOST_DEVICE RingSide<V, Metric> side_between(Point2<V> from, Point2<V> to, V inverse_areas,
-                                                                 const Metric& metric) {
-  const Point2<V> edge = to - from;
-  return {edge, squared_length(edge), T(1) / T(3) * inverse_areas, metric};
+/// That of a triangle. `Node` has a position and an inverse area, 1 / (twice the area that is aimed at) around it;
+/// `inverse_area`: that of the vertex. The area aimed at in the triangle follows from their mean.
+template <class T, class V, class Node, class Metric>
+constexpr TRISMOOTH_HOST_DEVICE RingSide<V, Metric> side_of(const TriangleCorner<Node>& corner, V inverse_area,
+                                                            const Metric& metric) {
+  const auto& [from, to] = corner;
+  const Point2<V> edge = to.position - from.position;
+  return {edge, squared_length(edge), T(1) / T(3) * (inverse_area + from.inverse_area + to.inverse_area), metric};
 }
 
 /// The triangle of a side, seen from the vertex. `shaped`: the shape that is aimed at is not equilateral.
@@ -99,18 +88,21 @@ struct SideTriangle {
   V spoke;                  ///< the squared distance to the first end of the side
 };
 
-/// That between two spokes.
+/// That of two spokes and their side. Another kind of element is a function element_of() for its corner, and the
+/// functions of MeanRatioEnergy for what it gives.
 template <class T, class V>
-constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, false> triangle_of(const RingSpoke<V>& a, const RingSpoke<V>& b,
-                                                                   const RingSide<V, EuclideanMetric<V>>& side) {
+constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, false> element_of(const TriangleCorner<RingSpoke<V>>& corner,
+                                                                  const RingSide<V, EuclideanMetric<V>>& side) {
+  const auto& [a, b] = corner;
   const V squares = a.squared + b.squared + side.squared;
   const V two = V{} + T(2);
   return {side.edge,           cross(a.edge, b.edge), squares,           squares,  a.edge.x + b.edge.x,
           a.edge.y + b.edge.y, {two, V{}, two},       side.inverse_area, a.squared};
 }
 template <class T, class V>
-constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, true> triangle_of(const RingSpoke<V>& a, const RingSpoke<V>& b,
-                                                                  const RingSide<V, EdgeTensor<V>>& side) {
+constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, true> element_of(const TriangleCorner<RingSpoke<V>>& corner,
+                                                                 const RingSide<V, EdgeTensor<V>>& side) {
+  const auto& [a, b] = corner;
   const Point2<V> pull{a.edge.x + b.edge.x, a.edge.y + b.edge.y};
   const EdgeTensor<V>& metric = side.metric;
   return {side.edge,
@@ -124,15 +116,15 @@ constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, true> triangle_of(const RingSpok
           a.squared};
 }
 
-/// What a method finds for one triangle around a vertex, as it stands where the vertex is tried.
+/// What a method finds for one element around a vertex, as it stands where the vertex is tried.
 template <class V, int count>
 struct SideTerms {
   V values[count];
-  V margin;  ///< positive where the triangle is as it may be
+  V margin;  ///< positive where the element is as it may be
   V share;   ///< share_of_error()
 };
 
-/// What a method finds for all triangles around a vertex together.
+/// What a method finds for all elements around a vertex together.
 template <class V, int count>
 struct SideTotals {
   V sums[count];  ///< of the values, added in the order of the ring: the same bits whoever adds
@@ -152,30 +144,22 @@ struct SideTotals {
   }
 };
 
-/// The sides of one ring. Neighbour i is fetch(i), which has a position, and make(from, to) the side between two. Each
-/// neighbour is fetched while the side before its own is worked on: a device waits long for its memory.
+/// The sides of one ring. Neighbour i is fetch(i), which has a position, and make(corner) the side of an element.
 template <class T, class Ring, class Fetch, class Make>
 class SidesInTurn {
  public:
   constexpr TRISMOOTH_HOST_DEVICE SidesInTurn(const Ring& ring, const Fetch& fetch, const Make& make)
       : ring_(ring), fetch_(fetch), make_(make) {}
 
-  /// The totals of term(triangle) over the triangles of a vertex at `position`.
+  /// The totals of term(element) over the elements of a vertex at `position`.
   template <int count, class Term>
   constexpr TRISMOOTH_HOST_DEVICE SideTotals<T, count> totals(Point2<T> position, const Term& term) const {
     auto result = SideTotals<T, count>::template none<T>();
-    const int size = ring_.size();
-    const auto first = fetch_(0);
-    auto from = first;
-    auto to = fetch_(1);
-    for (int i = 2; i <= size + 1; ++i) {
-      const auto following = i < size ? fetch_(i) : first;
+    for_elements_around(ring_, fetch_, [&](const auto& corner) {
       // A spoke is found again for the next side: kept until then, it costs a device registers.
-      result.add(
-          term(triangle_of<T>(spoke_to(from.position, position), spoke_to(to.position, position), make_(from, to))));
-      from = to;
-      to = following;
-    }
+      const auto spokes = corner.with([&](const auto& end) { return spoke_to(end.position, position); });
+      result.add(term(element_of<T>(spokes, make_(corner))));
+    });
     return result;
   }
 

@@ -1,37 +1,13 @@
 #pragma once
 
-#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/method.h"
 #include "trismooth/smoothing/methods/laplacian.h"
 #include "trismooth/smoothing/methods/one_ring_update.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
 namespace trismooth {
 
-/// Calls `visit(quotient)` with the shape quotient of each triangle (v, n_i, n_i+1) around `position`, evaluated in
-/// this corner order. Edge vectors and squares are shared between triangles; the operations are those of
-/// shape_quotient.
-template <class T, class Ring, class Visit>
-constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, const Ring& ring, const Visit& visit) {
-  const int size = ring.size();
-  const Point2<T> first = ring[0];
-  const Point2<T> first_spoke = first - position;
-  const T first_squared = squared_length(first_spoke);
-  Point2<T> neighbour = first;
-  Point2<T> spoke = first_spoke;
-  T squared = first_squared;
-  for (int i = 1; i < size; ++i) {
-    const Point2<T> next = ring[i];
-    const Point2<T> next_spoke = next - position;
-    const T next_squared = squared_length(next_spoke);
-    visit(shape_quotient(spoke, next_spoke, squared, squared_length(next - neighbour), next_squared));
-    neighbour = next;
-    spoke = next_spoke;
-    squared = next_squared;
-  }
-  visit(shape_quotient(spoke, first_spoke, squared, squared_length(first - neighbour), first_squared));
-}
-
-/// The smallest shape quotient of the triangles around `position`. Without branches, here and below: on a CPU a wrong
+/// The smallest shape quotient of the elements around `position`. Without branches, here and below: on a CPU a wrong
 /// guess costs more than the divisions that an early exit saves.
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE T worst_quotient(Point2<T> position, const Ring& ring) {
@@ -40,7 +16,7 @@ constexpr TRISMOOTH_HOST_DEVICE T worst_quotient(Point2<T> position, const Ring&
   return worst;
 }
 
-/// Whether the smallest shape quotient of the triangles around `position` is larger than `bound`, that is, every one of
+/// Whether the smallest shape quotient of the elements around `position` is larger than `bound`, that is, every one of
 /// them is. A quotient that is no number is not.
 template <class T, class Ring>
 constexpr TRISMOOTH_HOST_DEVICE bool is_better_than(T bound, Point2<T> position, const Ring& ring) {

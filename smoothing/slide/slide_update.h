@@ -131,6 +131,11 @@ class SlidingVertex {
     }
   }
 
+  /// A triangle of a fan, seen from where the vertex is.
+  TRISMOOTH_HOST_DEVICE TriangleCorner<RingSpoke<double>> spokes(Point2<double> position, const FanSide& side) const {
+    return {spoke_to(point(side.from), position), spoke_to(point(side.to), position)};
+  }
+
   /// The smallest shape quotient of its triangles, and how many are inverted.
   TRISMOOTH_HOST_DEVICE double worst_quotient(const SlidePlace& place, int& inverted) const {
     double worst = 1;
@@ -138,7 +143,7 @@ class SlidingVertex {
     for_sides(
         place,
         [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-          return shape_quotient(position, point(side.from), point(side.to));
+          return shape_quotient(spokes(position, side));
         },
         [&](double quotient) {
           // A quotient that is no number is the worst.
@@ -300,12 +305,14 @@ class SlidingEnergy {
   }
 
   TRISMOOTH_HOST_DEVICE auto triangle(Point2<double> position, const FanSide& side) const {
-    const Point2<double> from = vertex_.point(side.from);
-    const Point2<double> to = vertex_.point(side.to);
-    const double areas = target_.inverse_area + inverse_area(side.from, side.from_is_unknown) +
-                         inverse_area(side.to, side.to_is_unknown);
-    return triangle_of<double>(spoke_to(from, position), spoke_to(to, position),
-                               side_between<double>(from, to, areas, metric(side)));
+    struct Neighbour {
+      Point2<double> position;
+      double inverse_area;
+    };
+    const auto spokes = vertex_.spokes(position, side);
+    const TriangleCorner<Neighbour> corner{{spokes.next.end, inverse_area(side.from, side.from_is_unknown)},
+                                           {spokes.previous.end, inverse_area(side.to, side.to_is_unknown)}};
+    return element_of<double>(spokes, side_of<double>(corner, target_.inverse_area, metric(side)));
   }
 
   TRISMOOTH_HOST_DEVICE auto metric(const FanSide& side) const {

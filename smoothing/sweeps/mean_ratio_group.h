@@ -94,10 +94,10 @@ class MeanRatioGroup {
           return {positions_of([&](int lane) { return rings[lane][i]; }),
                   join([&](int lane) { return inverse_areas_[rings[lane][i]]; })};
         },
-        [&](int i) {
-          const int following = i + 1 < ring_size_ ? i + 1 : 0;
-          return metrics(
-              [&](int lane) { return method_.metric(vertices[lane], rings[lane][i], rings[lane][following]); });
+        [&](const auto& corner) {
+          return metrics([&](int lane) {
+            return method_.metric(vertices[lane], corner.with([&](int i) { return rings[lane][i]; }));
+          });
         });
   }
 

@@ -24,8 +24,8 @@ class SidesInLanes {
     V inverse_area;  ///< 1 / (twice the area to be aimed at) around it
   };
 
-  /// Takes the sides of rings of up to largest_ring_in_lanes neighbours. neighbour(i): neighbour i of each; metric(i):
-  /// of the side that begins there; `inverse_area`: around the vertices.
+  /// Takes the sides of rings of up to largest_ring_in_lanes neighbours. neighbour(i): neighbour i of each;
+  /// metric(corner): of the elements at neighbours of these places; `inverse_area`: around the vertices.
   template <class NeighbourAt, class MetricAt>
   void take(int size, V inverse_area, const NeighbourAt& neighbour, const MetricAt& metric) {
     for (int i = 0; i < size; ++i) {
@@ -34,21 +34,19 @@ class SidesInLanes {
     neighbours_[size] = neighbours_[0];
     size_ = size;
     for (int i = 0; i < size; ++i) {
-      const Neighbour& from = neighbours_[i];
-      const Neighbour& to = neighbours_[i + 1];
-      sides_[i] =
-          side_between<T>(from.position, to.position, inverse_area + from.inverse_area + to.inverse_area, metric(i));
+      sides_[i] = side_of<T>(TriangleCorner<Neighbour>{neighbours_[i], neighbours_[i + 1]}, inverse_area,
+                             metric(TriangleCorner<int>{i, i + 1 < size ? i + 1 : 0}));
     }
   }
 
   template <int count, class Term>
   SideTotals<V, count> totals(Point2<V> position, const Term& term) const {
     auto result = SideTotals<V, count>::template none<T>();
-    RingSpoke<V> a = spoke_to(neighbours_[0].position, position);
+    RingSpoke<V> next = spoke_to(neighbours_[0].position, position);
     for (int i = 0; i < size_; ++i) {
-      const RingSpoke<V> b = spoke_to(neighbours_[i + 1].position, position);
-      result.add(term(triangle_of<T>(a, b, sides_[i])));
-      a = b;
+      const RingSpoke<V> previous = spoke_to(neighbours_[i + 1].position, position);
+      result.add(term(element_of<T>(TriangleCorner<RingSpoke<V>>{next, previous}, sides_[i])));
+      next = previous;
     }
     return result;
   }

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/untangle/ring_kernel.h"
 #include "trismooth/smoothing/untangle/tutte.h"
@@ -211,15 +210,14 @@ constexpr int coarsest_steps = 150;
 constexpr int level_steps = 4;
 constexpr int smart_sweeps = 4;
 
-double worst_quotient(Point2<double> centre, std::span<const std::int32_t> ring,
-                      std::span<const Point2<double>> points) {
-  double worst = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const double quotient = shape_quotient(centre, points[ring[i]], points[ring[i + 1 == ring.size() ? 0 : i + 1]]);
-    worst = quotient < worst ? quotient : worst;
-  }
-  return worst;
-}
+/// A ring as methods read it.
+struct RingOfPoints {
+  std::span<const std::int32_t> numbers;
+  std::span<const Point2<double>> points;
+
+  int size() const { return static_cast<int>(numbers.size()); }
+  Point2<double> operator[](int i) const { return points[numbers[i]]; }
+};
 
 /// The smart move, whole or half of it.
 void move_to_mean_if_better(std::int32_t v, std::span<const std::int32_t> ring, std::span<Point2<double>> points) {
@@ -231,9 +229,10 @@ void move_to_mean_if_better(std::int32_t v, std::span<const std::int32_t> ring, 
   const auto count = static_cast<double>(ring.size());
   mean = {mean.x / count, mean.y / count};
   const Point2<double> half{0.5 * (mean.x + points[v].x), 0.5 * (mean.y + points[v].y)};
-  const double now = worst_quotient(points[v], ring, points);
+  const RingOfPoints positions{ring, points};
+  const double now = worst_quotient(points[v], positions);
   for (const Point2<double> place : {mean, half}) {
-    if (worst_quotient(place, ring, points) > now) {
+    if (worst_quotient(place, positions) > now) {
       points[v] = place;
       return;
     }
