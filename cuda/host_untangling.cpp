@@ -5,7 +5,7 @@
 
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/workers.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/invalid_triangles.h"
@@ -54,10 +54,9 @@ UntanglingResult HostUntangling::not_tangled(std::span<const std::uint8_t> rever
                                              std::span<const Point2<double>> points, const LocalFrame& frame) const {
   UntanglingResult result;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const auto [a, b, c] = canonical_corners(triangles_[t], reversed[t] != 0);
-    if (!(shape_quotient(frame.enter(points[a]), frame.enter(points[b]), frame.enter(points[c])) > 0)) {
-      const bool is_fixed = fixed_[a] != 0 && fixed_[b] != 0 && fixed_[c] != 0;
-      ++(is_fixed ? result.inverted_fixed : result.inverted_after);
+    const Triangle corners = canonical_corners(triangles_[t], reversed[t] != 0);
+    if (!(shape_quotient(points_of(corners, [&](std::int32_t v) { return frame.enter(points[v]); })) > 0)) {
+      ++(all_are_fixed(corners, fixed_) ? result.inverted_fixed : result.inverted_after);
     }
   }
   return result;

@@ -10,6 +10,7 @@
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/size_ratio.h"
 
 namespace trismooth {
@@ -46,8 +47,7 @@ std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const
     std::vector<double> values = zeros<double>(cell_count, workers);
     // A strip is as bad as the worst of its triangles.
     const auto take = [&](std::size_t t, std::int32_t cell, bool has_others) {
-      const auto [a, b, c] = corner_points(view, t);
-      double value = evaluate(metric, a, b, c);
+      double value = evaluate(metric, corner_points(view, t));
       if (metric == Metric::area) {
         value = std::ldexp(value, 2 * view.exponent);
       }

@@ -9,16 +9,13 @@
 #include "trismooth/base/machine/prefetch.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
-/// The corners of a triangle, in canonical order.
-using CornerPoints = std::array<Point2<double>, 3>;
-
-inline CornerPoints corner_points(const TriangleView& view, std::size_t triangle) {
-  const Triangle corners = canonical_corners(view, triangle);
-  return {view.points[static_cast<std::size_t>(corners[0])], view.points[static_cast<std::size_t>(corners[1])],
-          view.points[static_cast<std::size_t>(corners[2])]};
+/// The corners of an element of the view, in canonical order.
+inline CornerPoints corner_points(const TriangleView& view, std::size_t element) {
+  return points_of(canonical_corners(view, element), view.points);
 }
 
 /// Calls body(first, corners) for triangles [begin, end) of the view in order, some hundred at a time: `corners` are

@@ -16,7 +16,9 @@ constexpr std::size_t lanes = 32;
 
 /// Triangles side by side, and the values of their metrics.
 struct TriangleLanes {
-  alignas(64) double corners[6][lanes] = {};  ///< x and y of each
+  static constexpr std::size_t corner_count = std::tuple_size_v<CornerPoints>;
+
+  alignas(64) double corners[2 * corner_count][lanes] = {};  ///< x and y of each
   alignas(64) double values[metric_count][lanes] = {};
 };
 
@@ -40,7 +42,7 @@ void evaluate_all(std::span<const CornerPoints> triangles, std::span<MetricValue
   for (std::size_t begin = 0; begin < triangles.size(); begin += lanes) {
     const std::size_t count = std::min(lanes, triangles.size() - begin);
     for (std::size_t lane = 0; lane < count; ++lane) {
-      for (std::size_t corner = 0; corner < 3; ++corner) {
+      for (std::size_t corner = 0; corner < TriangleLanes::corner_count; ++corner) {
         side_by_side.corners[2 * corner][lane] = triangles[begin + lane][corner].x;
         side_by_side.corners[2 * corner + 1][lane] = triangles[begin + lane][corner].y;
       }

@@ -2,10 +2,15 @@
 
 #include <span>
 
-#include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/quality/metrics.h"
 
 namespace trismooth {
+
+/// A metric of an element: the functions of metrics.h for its kind.
+inline double evaluate(Metric metric, const CornerPoints& corners) {
+  return evaluate(metric, corners[0], corners[1], corners[2]);
+}
 
 /// evaluate_all() of every triangle, to the bit, several at a time. `values`: one for each of `triangles`.
 void evaluate_all(std::span<const CornerPoints> triangles, std::span<MetricValues> values);

@@ -4,7 +4,6 @@
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/corner_points.h"
-#include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
 
@@ -41,8 +40,7 @@ std::vector<OrientationVotes> orientation_votes(const TriangleComponents& compon
       if (left_out.empty() || left_out[t] == 0) {
         // Where a triangle is nearly degenerate, rounding gives it a sign that differs with the corner that comes
         // first: the sign that counts is that of its quality in every report and in the guard.
-        const auto& [a, b, c] = corners;
-        const double quotient = shape_quotient(a, b, c);
+        const double quotient = shape_quotient(corners);
         some.positive += quotient > 0 ? 1 : 0;
         some.negative += quotient < 0 ? 1 : 0;
         if (some.first == OrientationVotes::nobody && quotient != 0) {

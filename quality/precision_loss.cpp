@@ -5,8 +5,7 @@
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/text/digits.h"
 #include "trismooth/base/text/list_text.h"
-#include "trismooth/quality/corner_points.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -25,9 +24,9 @@ PrecisionLoss single_precision_loss(const TriangleView& view, int threads) {
       std::ssize(view.triangles), grain, workers, PrecisionLoss{std::ssize(view.triangles)},
       [&](std::int64_t begin, std::int64_t end, PrecisionLoss& loss) {
         for (std::int64_t t = begin; t < end; ++t) {
-          const auto [a, b, c] = corner_points(view, static_cast<std::size_t>(t));
-          const double exact = shape(a, b, c);
-          const float in_single = shape(rounded(a), rounded(b), rounded(c));
+          const Triangle corners = canonical_corners(view, static_cast<std::size_t>(t));
+          const double exact = shape(points_of(corners, view.points));
+          const float in_single = shape(points_of(corners, [&](std::int32_t v) { return rounded(view.points[v]); }));
           if (exact > 0 && !(in_single > 0)) {
             ++loss.collapsed;
           } else if (!(std::abs(exact - static_cast<double>(in_single)) <= distortion_limit)) {

@@ -10,7 +10,6 @@
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/quality_part.h"
-#include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
 
@@ -140,8 +139,7 @@ Block evaluate_block(const TriangleView& view, std::size_t block, std::size_t wo
     const double shape = values[t][static_cast<std::size_t>(Metric::shape)];
     count_shape(evaluated.part, shape);
     if (worst.would_take(shape)) {
-      const auto [a, b, c] = corner_points(view, begin + t);
-      worst.offer({static_cast<std::int64_t>(begin + t), shape, {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3}});
+      worst.offer({static_cast<std::int64_t>(begin + t), shape, centroid(corner_points(view, begin + t))});
     }
   }
   evaluated.worst = worst.take_sorted();
@@ -237,8 +235,8 @@ double smallest_shape(const TriangleView& view, int threads) {
     const std::size_t end = std::min(begin + block_size, view.triangles.size());
     double smallest_of_block = std::numeric_limits<double>::infinity();
     for_corners(view, begin, end, [&](std::size_t /*first*/, std::span<const CornerPoints> corners) {
-      for (const auto& [a, b, c] : corners) {
-        smallest_of_block = std::min(smallest_of_block, shape_quotient(a, b, c));
+      for (const CornerPoints& of_element : corners) {
+        smallest_of_block = std::min(smallest_of_block, shape_quotient(of_element));
       }
     });
     smallest[block] = smallest_of_block;

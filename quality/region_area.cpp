@@ -26,9 +26,8 @@ std::vector<double> region_areas(const TriangleView& view, std::span<const std::
                                  std::int32_t region_count) {
   std::vector<CompensatedSum> sums(static_cast<std::size_t>(region_count));
   for (std::size_t t = 0; t < view.triangles.size(); ++t) {
-    const auto [a, b, c] = corner_points(view, t);
     CompensatedSum& sum = sums[region_of.empty() ? 0 : static_cast<std::size_t>(region_of[t])];
-    sum.add(cross(b - a, c - a) / 2);
+    sum.add(doubled_area(corner_points(view, t)) / 2);
   }
   std::vector<double> areas;
   areas.reserve(sums.size());

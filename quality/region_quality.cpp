@@ -7,7 +7,7 @@
 #include "trismooth/base/counting_sort.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/corner_points.h"
-#include "trismooth/quality/metrics.h"
+#include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/region_part.h"
 
 namespace trismooth {
@@ -27,8 +27,8 @@ constexpr auto chunk_size = static_cast<std::size_t>(RegionPart::triangles_a_chu
 RegionPart part_of(const TriangleView& view, std::span<const std::int32_t> members) {
   RegionPart part;
   for (const std::int32_t triangle : members) {
-    const auto [a, b, c] = corner_points(view, static_cast<std::size_t>(triangle));
-    part.add(evaluate(Metric::shape, a, b, c), evaluate(Metric::min_angle, a, b, c));
+    const CornerPoints corners = corner_points(view, static_cast<std::size_t>(triangle));
+    part.add(evaluate(Metric::shape, corners), evaluate(Metric::min_angle, corners));
   }
   return part;
 }

@@ -18,7 +18,6 @@
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/quality/area_ratios.h"
 #include "trismooth/quality/corner_points.h"
-#include "trismooth/quality/triangle_quality.h"
 
 namespace trismooth {
 
@@ -29,10 +28,8 @@ constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 /// Twice the areas of the block's triangles from `first` on, NaN where one is not valid.
 void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<double> areas) {
   for_corners(view, first, first + areas.size(), [&](std::size_t begin, std::span<const CornerPoints> corners) {
-    std::ranges::transform(corners, areas.begin() + static_cast<std::ptrdiff_t>(begin - first), [](const auto& of) {
-      const auto& [a, b, c] = of;
-      return shape_quotient(a, b, c) > 0 ? cross(b - a, c - a) : no_number;
-    });
+    std::ranges::transform(corners, areas.begin() + static_cast<std::ptrdiff_t>(begin - first),
+                           [](const auto& of) { return shape_quotient(of) > 0 ? doubled_area(of) : no_number; });
   });
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "trismooth/base/machine/ordered_sum.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -35,14 +35,16 @@ SizeFit size_fit(const TriangleView& view, std::span<const double> inverse_areas
   Workers workers(threads);
   std::vector<double> ratios(view.triangles.size(), nan);  // NaN: not compared
   const auto fit_of = [&](std::int64_t t) -> FitSums {
-    const auto [a, b, c] = canonical_corners(view, static_cast<std::size_t>(t));
-    if (held[a] != 0 && held[b] != 0 && held[c] != 0) {
+    const Triangle corners = canonical_corners(view, static_cast<std::size_t>(t));
+    if (all_are_fixed(corners, held)) {
       return {};
     }
-    if (!(shape_quotient(view.points[a], view.points[b], view.points[c]) > 0)) {
+    const CornerPoints points = points_of(corners, view.points);
+    if (!(shape_quotient(points) > 0)) {
       return {.left_out = 1};
     }
-    const double area = cross(view.points[b] - view.points[a], view.points[c] - view.points[a]);
+    const double area = doubled_area(points);
+    const auto& [a, b, c] = corners;
     const double asked = 3 / (inverse_areas[a] + inverse_areas[b] + inverse_areas[c]);
     ratios[t] = area / asked;
     return {area, asked, 1};

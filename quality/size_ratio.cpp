@@ -8,6 +8,7 @@
 #include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/metric_lanes.h"
 
 namespace trismooth {
 
@@ -24,8 +25,7 @@ std::vector<double> areas_of(const TriangleView& view, Workers& workers) {
   std::vector<double> areas(view.triangles.size());
   workers.for_blocks(std::ssize(areas), ratio_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      const auto [a, b, c] = corner_points(view, t);
-      areas[t] = std::abs(evaluate(Metric::area, a, b, c));
+      areas[t] = std::abs(evaluate(Metric::area, corner_points(view, t)));
     }
   });
   return areas;

@@ -6,7 +6,7 @@
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth {
@@ -30,8 +30,8 @@ void count_invalid(std::span<const Triangle> triangles, std::span<const std::uin
         continue;
       }
       const bool is_turned = !turned.empty() && turned[t] != 0;
-      const auto [a, b, c] = canonical_corners(triangles[t], (reversed[t] != 0) != is_turned);
-      const double quotient = shape_quotient(position(a), position(b), position(c));
+      const Triangle corners = canonical_corners(triangles[t], (reversed[t] != 0) != is_turned);
+      const double quotient = shape_quotient(points_of(corners, position));
       inverted_here += quotient < 0 ? 1 : 0;
       degenerate_here += quotient == 0 ? 1 : 0;
     }

@@ -3,6 +3,7 @@
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/slide/held_points.h"
 #include "trismooth/cuda/slide/slid_points.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 #include "trismooth/smoothing/slide/slide_deviation.h"
 
@@ -100,14 +101,14 @@ struct JudgeHeldTriangles {
   LineVerdict* verdict;
 
   __device__ void operator()(std::uint32_t t) const {
-    const auto [a, b, c] = triangles[t];
-    const auto after = [&](std::int32_t v) { return slid.after[v - slid.free_count]; };
-    if (after(a) == before[a] && after(b) == before[b] && after(c) == before[c]) {
+    const auto after = points_of(triangles[t], [&](std::int32_t v) { return slid.after[v - slid.free_count]; });
+    const auto was_at = points_of(triangles[t], before);
+    if (after == was_at) {
       return;
     }
-    const double was = shape_quotient(before[a], before[b], before[c]);
+    const double was = shape_quotient(was_at);
     atomicMax(&verdict->before, falling_key(was));
-    atomicMax(&verdict->worsened, falling_key(worsened_quotient(was, shape_quotient(after(a), after(b), after(c)))));
+    atomicMax(&verdict->worsened, falling_key(worsened_quotient(was, shape_quotient(after))));
   }
 };
 

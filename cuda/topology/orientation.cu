@@ -5,7 +5,7 @@
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/component_votes.cuh"
 #include "trismooth/cuda/topology/orientation.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth::cuda {
 
@@ -19,8 +19,7 @@ struct SignVotes {
 
   TRISMOOTH_HOST_DEVICE Vote operator()(std::uint32_t t) const {
     const std::uint32_t word = words[t];
-    const auto [a, b, c] = canonical_corners(triangles[t], (word & 1U) != 0);
-    const double quotient = shape_quotient(points[a], points[b], points[c]);
+    const double quotient = shape_quotient(points_of(canonical_corners(triangles[t], (word & 1U) != 0), points));
     return {word >> 1U, quotient > 0, quotient < 0, quotient != 0, !(quotient > 0)};
   }
 };

@@ -3,7 +3,7 @@
 
 #include "trismooth/cuda/primitives/reduce.cuh"
 #include "trismooth/cuda/topology/triangle_quotients.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth::cuda {
 
@@ -16,9 +16,9 @@ struct FixedQuotient {
   const std::uint8_t* fixed;
 
   TRISMOOTH_HOST_DEVICE double operator()(std::uint32_t t) const {
-    const auto [a, b, c] = canonical_corners(triangles[t], reversed[t] != 0);
-    return fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0 ? shape_quotient(points[a], points[b], points[c])
-                                                           : std::numeric_limits<double>::infinity();
+    const Triangle corners = canonical_corners(triangles[t], reversed[t] != 0);
+    return all_are_fixed(corners, fixed) ? shape_quotient(points_of(corners, points))
+                                         : std::numeric_limits<double>::infinity();
   }
 };
 
@@ -36,8 +36,8 @@ struct Invalid {
   const std::uint8_t* reversed;
 
   TRISMOOTH_HOST_DEVICE std::uint64_t operator()(std::uint32_t t) const {
-    const auto [a, b, c] = canonical_corners(triangles[t], reversed[t] != 0);
-    const double quotient = shape_quotient(frame->enter(stored[a]), frame->enter(stored[b]), frame->enter(stored[c]));
+    const Triangle corners = canonical_corners(triangles[t], reversed[t] != 0);
+    const double quotient = shape_quotient(points_of(corners, [&](std::int32_t v) { return frame->enter(stored[v]); }));
     return quotient < 0 ? std::uint64_t{1} << bits_of_count : quotient == 0 ? 1 : 0;
   }
 };

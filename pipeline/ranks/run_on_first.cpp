@@ -16,7 +16,7 @@
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/partition/vertex_owners.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/corner_points.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/noted_smoother.h"
@@ -116,9 +116,7 @@ bool has_broken_triangles(std::span<const Triangle> triangles, std::span<const s
                           std::span<const Point2<double>> local) {
   const TriangleView view{local, triangles, reversed, 0};
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto [a, b, c] = canonical_corners(view, t);
-    if (!(shape_quotient(local[static_cast<std::size_t>(a)], local[static_cast<std::size_t>(b)],
-                         local[static_cast<std::size_t>(c)]) > 0)) {
+    if (!(shape_quotient(corner_points(view, t)) > 0)) {
       return true;
     }
   }

@@ -13,6 +13,7 @@
 #include "trismooth/pipeline/stages/smooth_stage.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
 #include "trismooth/pipeline/stages/write_stage.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/quality/size_ratio.h"
 
 namespace trismooth {
@@ -30,7 +31,7 @@ QualityReport report_of(const RunState& run) {
     if (run.regions.count() > 1) {
       element.region = run.regions.of_triangle[static_cast<std::size_t>(element.triangle)];
     }
-    element.all_fixed = std::ranges::all_of(corners, [&](std::int32_t v) { return run.found.fixed[v] != 0; });
+    element.all_fixed = all_are_fixed(corners, run.found.fixed);
     element.triangle = run.mesh.cells[static_cast<std::size_t>(element.triangle)];
     element.centroid = run.local.frame.leave(element.centroid);
     if (run.mesh.map) {

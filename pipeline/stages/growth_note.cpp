@@ -1,7 +1,6 @@
 #include "trismooth/pipeline/stages/growth_note.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +14,6 @@
 
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/quality/corner_points.h"
-#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/methods/mean_ratio_targets.h"
 
 namespace trismooth {
@@ -51,27 +49,22 @@ class Fan {
   double smallest_quotient(Point2<double> at) const {
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < size(); ++i) {
-      const auto [a, b, c] = corners(i, at);
-      smallest = std::min(smallest, shape_quotient(a, b, c));
+      smallest = std::min(smallest, shape_quotient(corners(i, at)));
     }
     return smallest;
   }
 
   /// Twice the area of one of them, and its share of the error.
-  double doubled_area(std::size_t i, Point2<double> at) const {
-    const auto [a, b, c] = corners(i, at);
-    return std::abs(cross(b - a, c - a));
-  }
+  double area(std::size_t i, Point2<double> at) const { return std::abs(doubled_area(corners(i, at))); }
   double share(std::size_t i, Point2<double> at) const {
     const auto [a, b, c] = corners(i, at);
-    return share_of_error(doubled_area(i, at), squared_length(b - a) + squared_length(c - b) + squared_length(a - c));
+    return share_of_error(area(i, at), squared_length(b - a) + squared_length(c - b) + squared_length(a - c));
   }
 
  private:
-  std::array<Point2<double>, 3> corners(std::size_t i, Point2<double> at) const {
-    const auto place = [&](std::int32_t v) { return v == vertex_ ? at : view_->points[v]; };
-    const auto [a, b, c] = canonical_corners(*view_, triangles_[i]);
-    return {place(a), place(b), place(c)};
+  CornerPoints corners(std::size_t i, Point2<double> at) const {
+    return points_of(canonical_corners(*view_, triangles_[i]),
+                     [&](std::int32_t v) { return v == vertex_ ? at : view_->points[v]; });
   }
 
   const TriangleView* view_;
@@ -87,7 +80,7 @@ double bound_of(const TriangleView& before, std::int32_t vertex, const QualityRe
   double areas = 0;
   for (std::size_t i = 0; i < fan.size(); ++i) {
     largest_share = std::max(largest_share, fan.share(i, at));
-    areas += fan.doubled_area(i, at);
+    areas += fan.area(i, at);
   }
   const double mean_shape = report[Metric::shape].mean;
   MeanRatioMesh mesh{};
@@ -107,10 +100,8 @@ WorstTriangle worst_with_free_corner(const TriangleView& view, std::span<const s
                                      const std::function<bool(std::size_t)>& counts) {
   WorstTriangle worst;
   for (std::size_t t = 0; t < view.triangles.size(); ++t) {
-    const auto [a, b, c] = corner_points(view, t);
-    const double quotient = shape_quotient(a, b, c);
-    if (quotient < worst.quotient && counts(t) &&
-        std::ranges::any_of(view.triangles[t], [fixed](std::int32_t v) { return fixed[v] == 0; })) {
+    const double quotient = shape_quotient(corner_points(view, t));
+    if (quotient < worst.quotient && counts(t) && !all_are_fixed(view.triangles[t], fixed)) {
       worst = {quotient, static_cast<std::int64_t>(t)};
     }
   }

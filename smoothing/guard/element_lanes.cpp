@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "trismooth/base/machine/compiled_for.h"
-#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 
 // Loops that call the formulas as they are for each lane, inlined into a function for each instruction set.
@@ -16,8 +15,9 @@ namespace {
   return a == b ? 0.0 : 1.0;
 }
 
-[[gnu::always_inline]] inline double quotient_in_lane(const double (&x)[3][ElementLanes::lanes],
-                                                      const double (&y)[3][ElementLanes::lanes], int lane) {
+using InLanes = double[ElementLanes::corners][ElementLanes::lanes];
+
+[[gnu::always_inline]] inline double quotient_in_lane(const InLanes& x, const InLanes& y, int lane) {
   return shape_quotient<double>({x[0][lane], y[0][lane]}, {x[1][lane], y[1][lane]}, {x[2][lane], y[2][lane]});
 }
 
@@ -35,7 +35,7 @@ void measure_elements(int count, ElementLanes& elements) {
   }
   for (int lane = 0; lane < end; ++lane) {
     double moved = 0;
-    for (int corner = 0; corner < 3; ++corner) {
+    for (int corner = 0; corner < ElementLanes::corners; ++corner) {
       moved += differ(elements.before_x[corner][lane], elements.after_x[corner][lane]);
       moved += differ(elements.before_y[corner][lane], elements.after_y[corner][lane]);
     }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+
 #include "trismooth/base/machine/instruction_set.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -8,14 +11,15 @@ namespace trismooth {
 /// one instruction what a register has room for.
 struct ElementLanes {
   static constexpr int lanes = 64;
+  static constexpr int corners = std::tuple_size_v<CornerPoints>;
   /// Loops go over so many at a time.
   static constexpr int at_once = 8;
 
   // In: the corners, in canonical order. Lanes beyond those in use hold anything.
-  alignas(64) double before_x[3][lanes] = {};
-  alignas(64) double before_y[3][lanes] = {};
-  alignas(64) double after_x[3][lanes] = {};
-  alignas(64) double after_y[3][lanes] = {};
+  alignas(64) double before_x[corners][lanes] = {};
+  alignas(64) double before_y[corners][lanes] = {};
+  alignas(64) double after_x[corners][lanes] = {};
+  alignas(64) double after_y[corners][lanes] = {};
   // Out.
   alignas(64) double quotients[lanes] = {};  ///< before; infinite where no corner has moved
   alignas(64) double worsened[lanes] = {};   ///< worsened_quotient(); likewise

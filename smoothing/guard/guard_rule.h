@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <limits>
 
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/base/exact_arithmetic.h"
+#include "trismooth/base/host_device.h"
 
 namespace trismooth {
 
@@ -21,17 +21,6 @@ constexpr TRISMOOTH_HOST_DEVICE double worsened_quotient(double before, double a
 /// An element was made worse: it was valid and is not any more, or is below `threshold` now and below what it was.
 constexpr TRISMOOTH_HOST_DEVICE bool offends(double before, double after, double threshold) {
   return worsened_quotient(before, after) < threshold;
-}
-
-/// The shape quotient of the element with these corners (counter-clockwise) and input indices, in canonical corner
-/// order: from the corner with the smallest index on. So an element gives the same bits from every one of its vertices.
-constexpr TRISMOOTH_HOST_DEVICE double canonical_quotient(Point2<double> a, Point2<double> b, Point2<double> c,
-                                                          std::int32_t index_a, std::int32_t index_b,
-                                                          std::int32_t index_c) {
-  if (index_a <= index_b && index_a <= index_c) {
-    return shape_quotient(a, b, c);
-  }
-  return index_b <= index_c ? shape_quotient(b, c, a) : shape_quotient(c, a, b);
 }
 
 }  // namespace trismooth

@@ -16,6 +16,7 @@
 #include "trismooth/smoothing/guard/element_lanes.h"
 #include "trismooth/smoothing/guard/guard_tree.h"
 #include "trismooth/smoothing/halo/halo.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
 namespace trismooth {
 
@@ -77,15 +78,9 @@ class ElementGatherer {
  private:
   /// In canonical corner order: from the corner with the smallest input index on.
   void gather(std::size_t lane) {
-    const auto [a, b, c] = elements_[lane];
-    const std::int32_t index_a = rings_.input(a);
-    const std::int32_t index_b = rings_.input(b);
-    const std::int32_t index_c = rings_.input(c);
-    const std::array<std::int32_t, 5> corners{a, b, c, a, b};
-    const bool a_first = (index_a <= index_b) & (index_a <= index_c);
-    const int first = a_first ? 0 : 2 - static_cast<int>(index_b <= index_c);
-    for (int corner = 0; corner < 3; ++corner) {
-      const std::int32_t v = corners[first + corner];
+    const Triangle corners = from_smallest(elements_[lane], [this](std::int32_t v) { return rings_.input(v); });
+    for (int corner = 0; corner < ElementLanes::corners; ++corner) {
+      const std::int32_t v = corners[corner];
       lanes_.before_x[corner][lane] = before_[v].x;
       lanes_.before_y[corner][lane] = before_[v].y;
       lanes_.after_x[corner][lane] = after_[v].x;
@@ -190,14 +185,8 @@ class Guard {
         continue;
       }
       const auto comes_later = [&](std::int32_t other) { return other > v || !is_free(other); };
-      std::int32_t b = ring.back();
-      bool b_comes_later = comes_later(b);
-      for (const std::int32_t c : ring) {
-        const bool c_comes_later = comes_later(c);
-        gatherer.add_if(b_comes_later & c_comes_later, {v, b, c});
-        b = c;
-        b_comes_later = c_comes_later;
-      }
+      for_elements_around(ring,
+                          [&](const auto& corner) { gatherer.add_if(corner.all(comes_later), element_at(v, corner)); });
     }
   }
 

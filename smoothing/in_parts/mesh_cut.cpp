@@ -8,6 +8,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/vertex_order.h"
 
@@ -55,11 +56,7 @@ class Cutter {
         owners_(owners_along_curve(mesh, local, parts, workers)),
         colouring_(colour_free_vertices(mesh.rings.view(), workers)),
         fixed_triangles_(numbers_of(
-            std::ssize(triangles),
-            [&](std::int64_t t) {
-              return std::ranges::all_of(triangles[t], [&](std::int32_t v) { return mesh.fixed[v] != 0; });
-            },
-            workers)),
+            std::ssize(triangles), [&](std::int64_t t) { return all_are_fixed(triangles[t], mesh.fixed); }, workers)),
         is_known_(local.size()),
         number_(local.size()) {
     for (const std::uint8_t why : mesh.fixed) {

@@ -9,7 +9,7 @@
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/quality/triangle_quality.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -30,9 +30,8 @@ class FixedTriangles {
     const std::int64_t count = for_each_numbered(
         std::ssize(triangles),
         [&](std::int64_t t) {
-          const auto& [a, b, c] = triangles[static_cast<std::size_t>(t)];
-          return fixed[a] != 0 && fixed[b] != 0 && fixed[c] != 0 &&
-                 (ghosts.empty() || ghosts[std::min({a, b, c})] == 0);
+          const Triangle& corners = triangles[static_cast<std::size_t>(t)];
+          return all_are_fixed(corners, fixed) && (ghosts.empty() || ghosts[std::ranges::min(corners)] == 0);
         },
         [&](std::int64_t number, std::int64_t t) {
           corners_[static_cast<std::size_t>(number)] =
@@ -46,8 +45,8 @@ class FixedTriangles {
   template <class Position>
   double smallest_quotient(const Position& position) const {
     double smallest = std::numeric_limits<double>::infinity();
-    for (const auto& [a, b, c] : corners_) {
-      smallest = std::min(smallest, shape_quotient(position(a), position(b), position(c)));
+    for (const Triangle& corners : corners_) {
+      smallest = std::min(smallest, shape_quotient(points_of(corners, position)));
     }
     return smallest;
   }
@@ -55,10 +54,8 @@ class FixedTriangles {
   /// How many of them are inverted or degenerate, where position(v) is vertex v in the local frame.
   template <class Position>
   std::int64_t inverted(const Position& position) const {
-    return std::ranges::count_if(corners_, [&](const Triangle& triangle) {
-      const auto [a, b, c] = triangle;
-      return !(shape_quotient(position(a), position(b), position(c)) > 0);
-    });
+    return std::ranges::count_if(
+        corners_, [&](const Triangle& corners) { return !(shape_quotient(points_of(corners, position)) > 0); });
   }
 
  private:

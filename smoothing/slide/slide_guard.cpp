@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 
 namespace trismooth {
@@ -107,8 +108,7 @@ std::int64_t SlideGuard::settle_triangles(double threshold_of_others, std::vecto
 
 bool SlideGuard::put_back_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted) {
   const auto quotient = [](std::span<const Point2<double>> points, const Triangle& triangle) {
-    const auto [a, b, c] = triangle;
-    return shape_quotient(points[a], points[b], points[c]);
+    return shape_quotient(points_of(triangle, points));
   };
   const auto has_moved = [this](std::int32_t v) { return !(after_[v] == before_[v]); };
   double threshold = threshold_of_others;

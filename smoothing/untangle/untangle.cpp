@@ -8,8 +8,8 @@
 
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/triangle_view.h"
-#include "trismooth/quality/triangle_quality.h"
-#include "trismooth/smoothing/guard/guard_rule.h"
+#include "trismooth/quality/element.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 #include "trismooth/smoothing/untangle/coarse_to_fine.h"
 #include "trismooth/smoothing/untangle/patch.h"
 #include "trismooth/smoothing/untangle/ring_kernel.h"
@@ -25,15 +25,20 @@ constexpr std::int64_t counting_grain = 4096;
 /// Calls visit(triangle) for every triangle around v whose free corner of the smallest number is v.
 template <class Visit>
 void for_own_triangles(const RingView& rings, std::int32_t v, const Visit& visit) {
-  const auto ring = rings[v];
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const std::int32_t b = ring[k];
-    const std::int32_t c = ring[k + 1 == ring.size() ? 0 : k + 1];
-    if ((b < v && rings.is_free(b)) || (c < v && rings.is_free(c))) {
-      continue;
-    }
-    visit(Triangle{v, b, c});
+  if (!rings.is_free(v)) {
+    return;
   }
+  for_elements_around(rings[v], [&](const auto& corner) {
+    if (corner.all([&](std::int32_t other) { return other > v || !rings.is_free(other); })) {
+      visit(element_at(v, corner));
+    }
+  });
+}
+
+/// The shape quotient of a triangle in canonical order: from the corner on that the input numbers lowest. So it has the
+/// same bits from every one of its vertices.
+double quotient_of(const Triangle& triangle, std::span<const Point2<double>> points, const RingView& rings) {
+  return shape_quotient(points_of(from_smallest(triangle, [&](std::int32_t v) { return rings.input(v); }), points));
 }
 
 /// Triangles of a shape below this are mended with the inverted ones, where they have come about by that: rounding is
@@ -112,15 +117,10 @@ class Untangler {
   static constexpr std::int64_t most_rings = 32;
   static constexpr std::int64_t all_rings = std::numeric_limits<std::int64_t>::max();
 
-  double quotient(std::span<const Point2<double>> points, const Triangle& triangle) const {
-    const auto [a, b, c] = triangle;
-    return canonical_quotient(points[a], points[b], points[c], rings_.input(a), rings_.input(b), rings_.input(c));
-  }
-
   Faults faults_of(const Triangle& triangle) const {
     Faults faults;
-    if (const double now = quotient(points_, triangle); !(now >= weak_quotient)) {
-      faults.count(now, quotient(input_, triangle));
+    if (const double now = quotient_of(triangle, points_, rings_); !(now >= weak_quotient)) {
+      faults.count(now, quotient_of(triangle, input_, rings_));
     }
     return faults;
   }
@@ -182,14 +182,13 @@ class Untangler {
     }
     faulty_.clear();
     for (const std::int32_t v : moved) {
-      const auto ring = rings_[v];
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const std::int32_t b = ring[k];
-        const std::int32_t c = ring[k + 1 == ring.size() ? 0 : k + 1];
-        if (!(b < v && listed_[b] != 0) && !(c < v && listed_[c] != 0) && faults_of({v, b, c}).any()) {
-          faulty_.push_back({v, b, c});
+      for_elements_around(rings_[v], [&](const auto& corner) {
+        const Triangle triangle = element_at(v, corner);
+        if (corner.all([&](std::int32_t other) { return other > v || listed_[other] == 0; }) &&
+            faults_of(triangle).any()) {
+          faulty_.push_back(triangle);
         }
-      }
+      });
     }
     count_faults();
     unlist(moved);
@@ -207,11 +206,10 @@ class Untangler {
   }
 
   std::int64_t inverted_at(std::int32_t v) const {
-    const auto ring = rings_[v];
     std::int64_t inverted = 0;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      inverted += quotient(points_, {v, ring[k], ring[k + 1 == ring.size() ? 0 : k + 1]}) > 0 ? 0 : 1;
-    }
+    for_elements_around(rings_[v], [&](const auto& corner) {
+      inverted += quotient_of(element_at(v, corner), points_, rings_) > 0 ? 0 : 1;
+    });
     return inverted;
   }
 
@@ -313,8 +311,7 @@ class Untangler {
   Faults faults_of(const Patch& patch, std::span<const Point2<double>> points, std::span<const double> input) const {
     Faults faults;
     for (std::size_t t = 0; t < input.size(); ++t) {
-      const auto [a, b, c] = patch.triangles[t];
-      faults.count(shape_quotient(points[a], points[b], points[c]), input[t]);
+      faults.count(shape_quotient(points_of(patch.triangles[t], points)), input[t]);
     }
     return faults;
   }
@@ -323,8 +320,8 @@ class Untangler {
   static bool has_area(const Patch& patch, std::span<const Point2<double>> points) {
     double sum = 0;
     double size = 0;
-    for (const auto& [a, b, c] : patch.triangles) {
-      const double area = cross(points[b] - points[a], points[c] - points[a]);
+    for (const Triangle& triangle : patch.triangles) {
+      const double area = doubled_area(points_of(triangle, points));
       sum += area;
       size += std::abs(area);
     }
@@ -346,8 +343,8 @@ class Untangler {
       return;
     }
     std::vector<double> input;
-    for (const auto& [a, b, c] : patch.triangles) {
-      input.push_back(shape_quotient(input_[patch.vertices[a]], input_[patch.vertices[b]], input_[patch.vertices[c]]));
+    for (const Triangle& triangle : patch.triangles) {
+      input.push_back(shape_quotient(points_of(triangle, [&](std::int32_t v) { return input_[patch.vertices[v]]; })));
     }
     const Faults before = faults_of(patch, points, input);
     std::vector<Point2<double>> best = points;
@@ -413,33 +410,21 @@ class Untangler {
 std::int64_t inverted_triangles(const RingView& rings, std::span<const Point2<double>> points, Workers& workers) {
   return joined_sum(rings.size(), counting_grain, workers, [&](std::int64_t v) {
     std::int64_t inverted = 0;
-    for_own_triangles(rings, static_cast<std::int32_t>(v), [&](const Triangle& t) {
-      inverted += canonical_quotient(points[t[0]], points[t[1]], points[t[2]], rings.input(t[0]), rings.input(t[1]),
-                                     rings.input(t[2])) > 0
-                      ? 0
-                      : 1;
-    });
+    for_own_triangles(rings, static_cast<std::int32_t>(v),
+                      [&](const Triangle& triangle) { inverted += quotient_of(triangle, points, rings) > 0 ? 0 : 1; });
     return inverted;
   });
 }
 
 std::int64_t inverted_triangles_of_part(const PackedRings& rings, std::span<const Point2<double>> points) {
+  const RingView view = rings.view();
   std::int64_t inverted = 0;
   for (std::int32_t v = 0; v < rings.free_count(); ++v) {
-    const std::span<const std::int32_t> ring = rings.view()[v];
-    const auto comes_first = [&](std::int32_t other) {
-      return other < rings.first_fixed() && rings.input_index[other] < rings.input_index[v];
-    };
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::int32_t a = ring[i];
-      const std::int32_t b = ring[i + 1 == ring.size() ? 0 : i + 1];
-      if (!comes_first(a) && !comes_first(b)) {
-        inverted += canonical_quotient(points[v], points[a], points[b], rings.input_index[v], rings.input_index[a],
-                                       rings.input_index[b]) > 0
-                        ? 0
-                        : 1;
-      }
-    }
+    for_elements_around(view[v], [&](const auto& corner) {
+      const bool is_own = corner.all(
+          [&](std::int32_t other) { return other >= rings.first_fixed() || view.input(other) > view.input(v); });
+      inverted += is_own && !(quotient_of(element_at(v, corner), points, view) > 0) ? 1 : 0;
+    });
   }
   return inverted;
 }

@@ -47,8 +47,7 @@ std::vector<std::uint8_t> vertices_of(const RingView& rings, std::span<const Tri
 }
 
 double quotient(const Triangle& triangle, bool is_reversed, std::span<const Point2<double>> points) {
-  const auto [a, b, c] = canonical_corners(triangle, is_reversed);
-  return shape_quotient(points[a], points[b], points[c]);
+  return shape_quotient(points_of(canonical_corners(triangle, is_reversed), points));
 }
 
 /// The components of a mesh as the input orients it. Points are in the input's numbering.
@@ -64,8 +63,8 @@ class OrientedComponents {
   std::vector<std::uint8_t> of_negative_area(std::span<const Point2<double>> points) const {
     std::vector<std::vector<double>> areas(count());
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const auto [a, b, c] = canonical_corners(triangles_[t], reversed_[t] != 0);
-      areas[component(t)].push_back(cross(points[b] - points[a], points[c] - points[a]));
+      const Triangle corners = canonical_corners(triangles_[t], reversed_[t] != 0);
+      areas[component(t)].push_back(doubled_area(points_of(corners, points)));
     }
     std::vector<std::uint8_t> found(count(), 0);
     for (std::size_t c = 0; c < found.size(); ++c) {

@@ -25,6 +25,7 @@
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/quality/orientation.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
@@ -123,7 +124,7 @@ class DelaunayMesh final : public TestMesh {
 
  private:
   static double quotient(const std::vector<Point2<double>>& points, std::int32_t a, std::int32_t b, std::int32_t c) {
-    return canonical_quotient(points[a], points[b], points[c], a, b, c);
+    return shape_quotient(points_of(canonical_corners({a, b, c}, false), points));
   }
   static std::uint64_t hash(const std::vector<Point2<double>>& points) {
     std::vector<double> xyz;

@@ -9,6 +9,7 @@
 #include <mpi.h>
 
 #include "trismooth/quality/area_ratios.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_part.h"
 #include "trismooth/quality/region_part.h"
@@ -79,8 +80,7 @@ RankQuality::RankQuality(const RankTopology& topology, std::span<const std::uint
     while (*id / block_size >= first_block(rank + 1)) {
       ++rank;
     }
-    const bool all_fixed = std::ranges::all_of(overlap.triangles[t],
-                                               [&](std::int32_t v) { return held[static_cast<std::size_t>(v)] != 0; });
+    const bool all_fixed = all_are_fixed(overlap.triangles[t], held);
     sent_[static_cast<std::size_t>(rank)].push_back(static_cast<std::int32_t>(t));
     sent[static_cast<std::size_t>(rank)].push_back({static_cast<std::int32_t>(*id - first_block(rank) * block_size),
                                                     regions.empty() ? 0 : regions[t],
@@ -124,9 +124,8 @@ std::int64_t RankQuality::first_of_round(int rank, std::int64_t round) const {
 
 BulkVector<Point2<double>> RankQuality::corners_of_round(std::span<const Point2<double>> points,
                                                          std::int64_t round) const {
-  using Corners = std::array<Point2<double>, 3>;
   const mpi::Overlap& overlap = topology_.overlap();
-  auto sent = mpi::lists_by_rank<Corners>(ranks_);
+  auto sent = mpi::lists_by_rank<CornerPoints>(ranks_);
   for (std::size_t r = 0; r < sent.size(); ++r) {
     const auto rank = static_cast<int>(r);
     const std::int64_t first = first_block(rank) * block_size;
@@ -139,9 +138,7 @@ BulkVector<Point2<double>> RankQuality::corners_of_round(std::span<const Point2<
     sent[r].reserve(triangles.size());
     for (const std::int32_t t : triangles) {
       const auto triangle = static_cast<std::size_t>(t);
-      const auto [a, b, c] = canonical_corners(overlap.triangles[triangle], reversed_[triangle] != 0);
-      sent[r].push_back({points[static_cast<std::size_t>(a)], points[static_cast<std::size_t>(b)],
-                         points[static_cast<std::size_t>(c)]});
+      sent[r].push_back(points_of(canonical_corners(overlap.triangles[triangle], reversed_[triangle] != 0), points));
     }
   }
   const std::int64_t first = first_of_round(ranks_.rank(), round);
@@ -152,7 +149,7 @@ BulkVector<Point2<double>> RankQuality::corners_of_round(std::span<const Point2<
     places.emplace_back(std::ranges::lower_bound(list, first), std::ranges::lower_bound(list, last));
     counts.push_back(std::ssize(places.back()));
   }
-  const mpi::ByRank<Corners> received = ranks_.exchanged(std::move(sent), counts);
+  const mpi::ByRank<CornerPoints> received = ranks_.exchanged(std::move(sent), counts);
   BulkVector<Point2<double>> corners(static_cast<std::size_t>(3 * (last - first)));
   for (std::size_t r = 0; r < received.size(); ++r) {
     for (std::size_t i = 0; i < received[r].size(); ++i) {

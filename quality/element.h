@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/quality/triangle_quality.h"
+
+/// What the guard, reports, regions and all others that go over a mesh ask of an element: a function for each kind of
+/// element, by its corners or by their points. Corners are in canonical order (see canonical_corners()) wherever bits
+/// count.
+///
+/// All elements are triangles. Another kind has its own array of corners, the functions here and those for its metrics
+/// (metrics.h).
+namespace trismooth {
+
+/// The corners from the one on of which number(v) is the smallest, in the same sense of rotation: canonical order where
+/// the input has other numbers than the corners.
+template <class Number>
+constexpr Triangle from_smallest(const Triangle& corners, const Number& number) {
+  const auto& [a, b, c] = corners;
+  const std::int32_t of_a = number(a);
+  const std::int32_t of_b = number(b);
+  const std::int32_t of_c = number(c);
+  // (No branches, which would be guessed wrong: & is meant.)
+  const bool b_first = (of_b < of_a) & (of_b <= of_c);
+  const bool c_first = (of_c < of_a) & (of_c < of_b);
+  return {c_first ? c : (b_first ? b : a), c_first ? a : (b_first ? c : b), c_first ? b : (b_first ? a : c)};
+}
+
+/// The points of an element's corners.
+template <class T>
+using TrianglePoints = std::array<Point2<T>, 3>;
+using CornerPoints = TrianglePoints<double>;
+
+/// The points of these corners, where position(v) is vertex v.
+template <class Position>
+constexpr TRISMOOTH_HOST_DEVICE auto points_of(const Triangle& corners, const Position& position) {
+  return TrianglePoints<decltype(position(0).x)>{position(corners[0]), position(corners[1]), position(corners[2])};
+}
+/// The same where points[v] is vertex v.
+template <class Points>
+requires requires(const Points& points) {
+  points[0];
+}
+constexpr TRISMOOTH_HOST_DEVICE auto points_of(const Triangle& corners, const Points& points) {
+  return points_of(corners, [&](std::int32_t v) { return points[v]; });
+}
+
+/// The shape without its factor (see triangle_quality.h).
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T shape_quotient(const TrianglePoints<T>& corners) {
+  return shape_quotient(corners[0], corners[1], corners[2]);
+}
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T shape(const TrianglePoints<T>& corners) {
+  return shape(corners[0], corners[1], corners[2]);
+}
+
+/// Twice the area, positive where the element is counter-clockwise.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T doubled_area(const TrianglePoints<T>& corners) {
+  return cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
+/// The middle of the corners.
+constexpr Point2<double> centroid(const CornerPoints& corners) {
+  const auto& [a, b, c] = corners;
+  return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+}
+
+/// Whether all corners are held: fixed[v] is not 0.
+template <class Element, class Fixed>
+constexpr TRISMOOTH_HOST_DEVICE bool all_are_fixed(const Element& corners, const Fixed& fixed) {
+  for (const std::int32_t v : corners) {
+    if (fixed[v] == 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace trismooth
