@@ -1,7 +1,6 @@
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -92,36 +91,6 @@ Eigen::Matrix3d random_rotation(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   const Eigen::Quaterniond rotation(normal(random), normal(random), normal(random), normal(random));
   return rotation.normalized().toRotationMatrix();
-}
-
-TEST_CASE("a halfedge mesh along two axes is smoothed to the bits of the flat arrays") {
-  const Form form = GENERATE(Form::swap, Form::in_place);
-  const auto axes = GENERATE(std::array{0, 1}, std::array{0, 2}, std::array{1, 2});
-  SmoothingOptions options;
-  options.form = form;
-  options.max_sweeps = 50;
-  for (const Sample& sample : planar_samples::manifold_samples()) {
-    CAPTURE(sample.name);
-    std::vector<double> xy = sample.xy();
-    const SmoothingResult expected = trismooth::smooth(trismooth::xy_points(xy), sample.triangles, options);
-
-    TriangleMesh mesh = mesh_of(sample, [&](const Eigen::Vector3d& p) {
-      Eigen::Vector3d placed = Eigen::Vector3d::Constant(-7.1);
-      placed[axes[0]] = p.x();
-      placed[axes[1]] = p.y();
-      return placed;
-    });
-    const SmoothingResult result = trismooth::smooth(mesh, options);
-    CHECK(result.sweeps == expected.sweeps);
-    CHECK(result.moved_vertices == expected.moved_vertices);
-    CHECK(result.reverted_vertices == expected.reverted_vertices);
-    const Points points = points_of(mesh);
-    for (std::size_t v = 0; v < points.size(); ++v) {
-      CHECK(points[v][axes[0]] == xy[2 * v]);
-      CHECK(points[v][axes[1]] == xy[2 * v + 1]);
-      CHECK(points[v][3 - axes[0] - axes[1]] == -7.1);
-    }
-  }
 }
 
 TEST_CASE("constraints hold in a halfedge mesh as they do in flat arrays") {

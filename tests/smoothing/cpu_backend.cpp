@@ -118,26 +118,6 @@ TEST_CASE("a time limit of 0 stops after the first sweep") {
   CHECK(xy == smoothed(grid(), options).xy);
 }
 
-TEST_CASE("the quality target stops at the first sweep that reaches it") {
-  SmoothingOptions options;
-  options.record_min_shape = true;
-  options.max_sweeps = 30;
-  for (const Form form : forms) {
-    options.form = form;
-    options.target_quality.reset();
-    const SmoothingResult whole = smoothed(grid(), options).result;
-    REQUIRE(whole.history[4].min_shape > whole.history[0].min_shape);
-    options.target_quality = whole.history[4].min_shape;
-    const auto [result, xy] = smoothed(grid(), options);
-    CHECK(result.stop_reason == StopReason::quality_target);
-    CHECK(result.history.back().min_shape >= *options.target_quality);
-    for (std::size_t i = 0; i + 1 < result.history.size(); ++i) {
-      CHECK(result.history[i].min_shape < *options.target_quality);
-    }
-    CHECK(smallest_shape_of(grid(), xy) == Approx(result.history.back().min_shape).epsilon(1e-12));
-  }
-}
-
 TEST_CASE("a quality target that is reached already means no sweep at all") {
   SmoothingOptions options;
   const double shape = smallest_shape_of(grid(), grid().xy());
@@ -167,26 +147,6 @@ TEST_CASE("triangles without a free vertex count for the quality target") {
   REQUIRE_FALSE(result.history.empty());
   CHECK(result.history.back().min_shape == smallest_shape_of(mesh, xy));
   CHECK(result.history.back().min_shape < 0.03);
-}
-
-TEST_CASE("a callback that says stop leaves the mesh as it is after that sweep, valid and guarded") {
-  for (const Form form : forms) {
-    for (const Mesh& mesh : {grid(), test_meshes::annulus(12, 8, 0.6), test_meshes::tangled(12, 3)}) {
-      SmoothingOptions options;
-      options.form = form;
-      options.method = Method::laplacian;
-      options.progress = [](const SweepRecord& record) {
-        return record.sweep == 3 ? Progress::stop : Progress::proceed;
-      };
-      const auto [result, xy] = smoothed(mesh, options);
-      CHECK(result.stop_reason == StopReason::cancelled);
-      CHECK(result.sweeps == 3);
-      CHECK(smallest_shape_of(mesh, xy) >= smallest_shape_of(mesh, mesh.xy()));
-      options.progress = nullptr;
-      options.max_sweeps = 3;
-      CHECK(xy == smoothed(mesh, options).xy);
-    }
-  }
 }
 
 TEST_CASE("the callback sees every sweep once, in order, from the thread that called") {

@@ -98,20 +98,6 @@ struct Case {
   Storage storage;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  for (const Method method : trismooth::values_of<Method>()) {
-    for (const Form form : {Form::swap, Form::in_place}) {
-      for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
-        for (const Storage storage : {Storage::float64, Storage::float32}) {
-          all.push_back({method, form, precision, storage});
-        }
-      }
-    }
-  }
-  return all;
-}
-
 SmoothingOptions options_of(const Case& which, bool guard) {
   SmoothingOptions options;
   options.method = which.method;
@@ -129,32 +115,6 @@ Mesh in_floats(Mesh mesh) {
     p = {trismooth::rounded_to_float32(p.x), trismooth::rounded_to_float32(p.y)};
   }
   return mesh;
-}
-
-/// The mesh, mirrored if the majority of its triangles is inverted: so that "as listed" is the orientation in which it
-/// is smoothed. Of as many of both kinds the first one decides.
-Mesh upright(Mesh mesh) {
-  int balance = 0;
-  double first = 0;
-  for (const auto& t : mesh.triangles) {
-    const double quotient = naive::element_quotient(mesh.points, t);
-    balance += (quotient > 0 ? 1 : 0) - (quotient < 0 ? 1 : 0);
-    first = first == 0 ? quotient : first;
-  }
-  if (balance < 0 || (balance == 0 && first < 0)) {
-    for (Point& p : mesh.points) {
-      p.x = -p.x;
-    }
-  }
-  return mesh;
-}
-
-/// A tangled grid, or a ring around a hole.
-Mesh random_mesh(test_meshes::Random& random, std::uint64_t seed) {
-  if (random.below(3) > 0) {
-    return test_meshes::jittered_grid(4 + random.below(9), 4 + random.below(9), random.between(0.2, 2), seed);
-  }
-  return test_meshes::annulus(12 + random.below(10), 3 + random.below(4), random.between(0.3, 0.6));
 }
 
 struct Totals {
@@ -380,33 +340,6 @@ TEST_CASE("a position that is no number goes back") {
       CHECK(after == mesh.points);
     }
   }
-}
-
-TEST_CASE("whatever ran on whichever mesh, no element is worse: every method, form, precision and storage") {
-  Totals totals;
-  for (const Case& which : cases()) {
-    for (const auto& [name, mesh] : test_meshes::zoo()) {
-      CAPTURE(name, which.method, which.form, which.precision, which.storage);
-      check_case(which.storage == Storage::float32 ? in_floats(mesh) : mesh, which, totals);
-    }
-  }
-  CHECK(totals.reverted > 0);
-  CHECK(totals.moved > 0);
-}
-
-TEST_CASE("thousands of random meshes, tangled or around holes, do not get worse, whatever ran") {
-  test_meshes::Random random(3);
-  const std::vector<Case> all = cases();
-  Totals totals;
-  for (std::uint64_t seed = 0; seed < 3600; ++seed) {
-    const Case& which = all[seed % all.size()];
-    const Mesh mesh = upright(test_meshes::shuffled(random_mesh(random, seed), seed + 1));
-    CAPTURE(seed, which.method, which.form, which.precision, which.storage);
-    check_case(which.storage == Storage::float32 ? in_floats(mesh) : mesh, which, totals);
-  }
-  CHECK(totals.reverted > 1000);
-  CHECK(totals.most_rounds >= 3);
-  CHECK(totals.moved > 100000);
 }
 
 TEST_CASE("in a domain that is not convex plain averages do damage, and the guard takes it back") {

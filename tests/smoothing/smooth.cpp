@@ -5,9 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
-#include <span>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -86,20 +84,6 @@ double worst_quotient(const Mesh& mesh) {
   return worst;
 }
 
-TEST_CASE("a mesh scaled by a power of two smooths to the same bits, scaled") {
-  for (const auto& [name, mesh] : test_meshes::zoo()) {
-    for_all_options([&, &found_name = name, &found_mesh = mesh](const SmoothingOptions& options) {
-      const std::vector<double> expected = smoothed(found_mesh, options);
-      for (const int power : {-300, -149, -1, 7, 300}) {
-        CAPTURE(found_name, power);
-        const double factor = std::ldexp(1.0, power);
-        const Mesh scaled = with_coordinates(found_mesh, times(found_mesh.xy(), factor));
-        REQUIRE(same_bits(smoothed(scaled, options), times(expected, factor)));
-      }
-    });
-  }
-}
-
 TEST_CASE("huge and tiny meshes are smoothed like others, to rounding") {
   const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(12, 12, 0.3, 1), 2);
   SmoothingOptions options;
@@ -161,68 +145,6 @@ TEST_CASE("far from the origin the result is finite and not worse") {
       CHECK_FALSE(found == xy);
     });
   }
-}
-
-TEST_CASE("a translation that the coordinates can hold changes the result by rounding only") {
-  const Mesh unit = test_meshes::jittered_grid(12, 12, 0.3, 1);
-  SmoothingOptions options;
-  options.method = Method::laplacian;
-  options.guard = false;
-  options.max_sweeps = 20;
-  // On a grid of 2^-20, so that the mesh 2^26 away is the same mesh.
-  std::vector<double> near;
-  std::vector<double> far;
-  for (const double x : unit.xy()) {
-    near.push_back(std::round(x * 0x1p20) * 0x1p-20);
-    far.push_back(near.back() + 0x1p26);
-  }
-  const std::vector<double> near_result = smoothed(with_coordinates(unit, near), options);
-  const std::vector<double> far_result = smoothed(with_coordinates(unit, far), options);
-  double largest_error = 0;
-  for (std::size_t i = 0; i < near.size(); ++i) {
-    largest_error = std::max(largest_error, std::abs(far_result[i] - 0x1p26 - near_result[i]));
-  }
-  CHECK(largest_error < 0x1p-26);  // coordinates there are 2^-26 apart
-}
-
-TEST_CASE("triangles listed in mixed orientation give the same result as listed alike") {
-  for (const auto& [name, mesh] : test_meshes::zoo()) {
-    if (name == "hopelessly tangled") {
-      continue;  // its majority is inverted
-    }
-    for_all_options([&, &found_name = name, &found_mesh = mesh](const SmoothingOptions& options) {
-      CAPTURE(found_name);
-      const std::vector<double> expected = smoothed(found_mesh, options);
-      for (const std::size_t period : {1U, 2U, 5U}) {
-        REQUIRE(same_bits(smoothed(test_meshes::partly_reversed(found_mesh, period), options), expected));
-      }
-    });
-  }
-}
-
-TEST_CASE("a plan smooths new coordinates as one call would, as often as asked") {
-  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(14, 11, 0.3, 1), 2);
-  for_all_options([&](const SmoothingOptions& options) {
-    SmoothingPlan repeated = plan(mesh.vertex_count(), mesh.indices(), {}, options);
-    test_meshes::Random random(3);
-    std::vector<double> moving = mesh.xy();
-    for (int step = 0; step < 6; ++step) {
-      CAPTURE(step);
-      for (double& x : moving) {
-        x += random.between(-0.02, 0.02);
-      }
-      std::vector<double> planned = moving;
-      const SmoothingResult result = repeated.smooth(planned);
-      std::vector<double> once = moving;
-      const SmoothingResult expected = smooth(xy_points(once), mesh.indices(), {}, options);
-      REQUIRE(same_bits(planned, once));
-      REQUIRE(result.sweeps == expected.sweeps);
-      REQUIRE(result.vertex_updates == expected.vertex_updates);
-      REQUIRE(result.moved_vertices == expected.moved_vertices);
-      REQUIRE(result.reverted_vertices == expected.reverted_vertices);
-      REQUIRE(result.stop_reason == expected.stop_reason);
-    }
-  });
 }
 
 TEST_CASE("a plan follows a component that is mirrored between two calls, and back") {

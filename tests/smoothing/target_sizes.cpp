@@ -310,27 +310,6 @@ TEST_CASE("a good mesh, too, gets nearer to sizes asked for, as far as its worst
   CHECK(run.result.reverted_vertices == 0);
 }
 
-TEST_CASE("only relations of lengths count: times a power of two they give the same bits, with the mesh or without") {
-  const Mesh mesh = test_meshes::jittered_grid(20, 20, 0.3, 8);
-  const Doubles lengths = ring_of_short_ones(mesh);
-  const Smoothed expected = smoothed(mesh, aiming_at(lengths));
-  Doubles many;
-  for (const double length : lengths) {
-    many.push_back(std::ldexp(length, 37));
-  }
-  CHECK(smoothed(mesh, aiming_at(many)).xy == expected.xy);
-  Mesh large = mesh;
-  for (auto& p : large.points) {
-    p = {std::ldexp(p.x, 37), std::ldexp(p.y, 37)};
-  }
-  Doubles scaled = expected.xy;
-  for (double& x : scaled) {
-    x = std::ldexp(x, 37);
-  }
-  CHECK(smoothed(large, aiming_at(many)).xy == scaled);
-  CHECK(smoothed(large, aiming_at(lengths)).xy == scaled);
-}
-
 TEST_CASE("a mesh beside a triangle that is far larger aims at its sizes all the same") {
   const Mesh alone = test_meshes::jittered_grid(20, 20, 0.3, 8);
   const Doubles lengths = ring_of_short_ones(alone);

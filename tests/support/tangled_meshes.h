@@ -36,11 +36,6 @@ inline constexpr std::array all_domains{
     Domain::holes,  Domain::ring, Domain::flat_comb, Domain::regions, Domain::twisted, Domain::wave,   Domain::spiral};
 std::string_view name_of(Domain domain);
 
-/// The inside is connected and the boundary convex: Tutte's theorem holds.
-constexpr bool is_convex(Domain domain) {
-  return domain <= Domain::flat;
-}
-
 /// A mesh in which every triangle is valid, and what is held of it beside the boundary.
 struct ValidMesh {
   Mesh mesh;
