@@ -92,16 +92,6 @@ TEST_CASE("ADCIRC: a grid may end behind its elements or any of its lists of bou
   }
 }
 
-TEST_CASE("ADCIRC: only numbers of what changed are written, also depths") {
-  MeshDocument document = adcirc.read(replace_all(bay, "1.5 0 -2", " 0.150D+01  0.0   -2.00"));
-  document.points[3] = 1.75;
-  CHECK(adcirc.written(document) == replace_all(bay, "1.5 0 -2", " 1.75  0.0   -2.00"));
-  REQUIRE(document.original->keeps_values_of("depth"));
-  document.point_arrays[0] = make_data_array("depth", 1, std::vector<double>{10.5, -2.5, 3, 1});
-  CHECK(adcirc.written(document) ==
-        replace_all(replace_all(bay, "1.5 0 -2", " 1.75  0.0   -2.5"), "4 0 1 0", "4 0 1 1"));
-}
-
 TEST_CASE("ADCIRC: a depth may be no number, which stays as it is written") {
   for (const std::string none : {"nan", "NaN", "NAN", "-nan"}) {
     CAPTURE(none);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/codec.h"
@@ -61,13 +62,29 @@ TEST_CASE("no file is recognised by a format that it is not of, and a file of it
 }
 
 TEST_CASE("formats with a signature recognise it, others have no function for it") {
-  const std::map<FileFormat, std::string> begins{
+  const std::vector<std::pair<FileFormat, std::string>> begins{
       {FileFormat::off, "# a comment\nSTCNOFF\n3 1 0\n"},
       {FileFormat::ply, "ply\r\nformat ascii 1.0\r\n"},
       {FileFormat::stl, "\xEF\xBB\xBFsolid of a plate\n  facet normal 0 0 1\n"},
       {FileFormat::vtk, "# vtk DataFile Version 3.0\nOFF\nASCII\n"},
       {FileFormat::vtu, "<?xml version=\"1.0\"?>\n<!-- a -->\n<VTKFile type='UnstructuredGrid' version=\"1.0\">\n"},
       {FileFormat::vtp, "<VTKFile version=\"0.1\" type=\"PolyData\">"},
+      {FileFormat::msh, "\r\n$MeshFormat \r\n"},
+      {FileFormat::msh, "$Comments\nx\n"},
+      {FileFormat::msh, "$NOD\n"},
+      {FileFormat::medit, "# a\n\n\tMeshVersionFormatted 1\n"},
+      {FileFormat::su2, "\xEF\xBB\xBF\r\n% a title\r\n  NZONE = 2\r\n"},
+      {FileFormat::inp, "\xEF\xBB\xBF\r\n  *heading\r\n"},
+      {FileFormat::sms, "MESH2D"},
+      {FileFormat::sms, "# one\n  MESH2D # two\n"},
+      {FileFormat::nastran, "$ a comment\n\n  begin bulk\r\n"},
+      {FileFormat::nastran, "SOL 101\nCEND\nBEGIN BULK\n"},
+      {FileFormat::nastran, "ID A,B\nSOL 1\nBEGIN BULK"},
+      {FileFormat::nastran, "NASTRAN BUFFSIZE=1\nCEND\nBEGIN BULK\n"},
+      {FileFormat::nastran, "GRID,1,,0.\n"},
+      {FileFormat::nastran, "GRID*   1\n"},
+      {FileFormat::nastran, "\xEF\xBB\xBFgrid\t1\n"},
+      {FileFormat::nastran, "$\nCTRIA3  1       1       1       2       3\n"},
   };
   for (const auto& [format, bytes] : begins) {
     CAPTURE(bytes);
@@ -77,9 +94,37 @@ TEST_CASE("formats with a signature recognise it, others have no function for it
 }
 
 TEST_CASE("what only looks similar is recognised by nobody") {
-  for (const std::string bytes : {"", " ", "\n", "off we go\n", "OFFSET 3\n", "OFF", "plyboard\n", "ply\n",
-                                  "ply\nfour\n", "solid\n", "solid rock\nand more\n", "<VTKFile", "<html>", "# vtk\n",
-                                  "3 1 0\n0 0 0\n", "\xEF\xBB\xBF", "<VTKFile type=\"ImageData\">"}) {
+  for (const std::string bytes : {"",
+                                  " ",
+                                  "\n",
+                                  "off we go\n",
+                                  "OFFSET 3\n",
+                                  "OFF",
+                                  "plyboard\n",
+                                  "ply\n",
+                                  "ply\nfour\n",
+                                  "solid\n",
+                                  "solid rock\nand more\n",
+                                  "<VTKFile",
+                                  "<html>",
+                                  "# vtk\n",
+                                  "3 1 0\n0 0 0\n",
+                                  "\xEF\xBB\xBF",
+                                  "<VTKFile type=\"ImageData\">",
+                                  "NDIME 2\n",
+                                  "% NDIME= 2\n",
+                                  "title = NDIME= 2\n",
+                                  "MESH3D\n",
+                                  "mesh2d\n",
+                                  "* something else\n",
+                                  "4 2 1\n",
+                                  "$ only\n",
+                                  "GRID of the bay\n4 5\n",
+                                  "GRIDS,1\n",
+                                  "SOL 101\n",
+                                  "ID 1\n",
+                                  "BEGIN\n",
+                                  "\1"}) {
     CAPTURE(bytes);
     CHECK(recognising(bytes).empty());
     CHECK(recognising(bytes + std::string(100'000, 'x')).empty());

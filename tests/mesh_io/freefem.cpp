@@ -1,6 +1,5 @@
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "trismooth/mesh_io/document/region_names.h"
@@ -54,16 +53,6 @@ TEST_CASE("FreeFem: vertices, triangles, edges and their labels are read") {
   CHECK(trismooth::is_region_name("freefem:label"));
   CHECK(document.notes.empty());
   CHECK(byte_files::is_valid(document));
-}
-
-TEST_CASE("FreeFem: the bytes are those that were read, but for the coordinates that moved") {
-  const std::string line_end = GENERATE("\n", "\r\n", "\r");
-  const std::string text = replace_all(halves, "\n", line_end);
-  MeshDocument document = freefem_codec.read("mesh.msh", text);
-  CHECK(byte_files::written_back(document) == text);
-  document.points[12] = 0.5;
-  document.points[13] = 0.1 + 0.2;
-  CHECK(byte_files::written_back(document) == replace_all(text, "0.4 0.6 0", "0.5 0.30000000000000004 0"));
 }
 
 TEST_CASE("FreeFem: what breaks the rules is refused with the line and the reason") {

@@ -72,15 +72,6 @@ TEST_CASE("Medit: vertices, cells, references and sets are read") {
   CHECK(byte_files::is_valid(document));
 }
 
-TEST_CASE("Medit: the bytes are those that were read, but for the coordinates that moved") {
-  const std::string text(medit_plate);
-  MeshDocument document = as_medit(text);
-  CHECK(byte_files::written_back(document) == text);
-  document.points[3 * 2] = 1.0625;
-  document.points[3 * 2 + 1] = 1e-30;
-  CHECK(byte_files::written_back(document) == replace_all(text, "1 1 2\n", "1.0625 1e-30 2\n"));
-}
-
 TEST_CASE("Medit: the mesh is the same however the file is laid out") {
   const std::string text(medit_plate);
   const std::string laid_out = GENERATE_COPY(
@@ -169,13 +160,6 @@ TEST_CASE("Medit: a file without End is read, and a note says that something may
   const MeshDocument document = as_medit(replace_all(std::string(medit_plate), "\nEnd\n", ""));
   REQUIRE_FALSE(document.notes.empty());
   CHECK(contains(document.notes[0], "no End"));
-}
-
-TEST_CASE("Medit: its files are recognised") {
-  CHECK(medit_codec.recognises(medit_plate));
-  CHECK(medit_codec.recognises("# a\n\n\tMeshVersionFormatted 1\n"));
-  CHECK_FALSE(medit_codec.recognises("MFEM mesh v1.0\n"));
-  CHECK_FALSE(medit_codec.recognises(""));
 }
 
 TEST_CASE("Medit: a mesh from elsewhere is written with its groups as references") {

@@ -113,12 +113,6 @@ TEST_CASE("what breaks the rules of binary Medit is refused with the byte and th
   CHECK(contains(refusal_of_binary(bytes.substr(0, 11)), "is no Medit file"));
 }
 
-TEST_CASE("binary Medit is recognised in either byte order") {
-  CHECK(medit_codec.recognises(medit_file_named("medit_1_little_endian")));
-  CHECK(medit_codec.recognises(medit_file_named("medit_4_big_endian")));
-  CHECK_FALSE(medit_codec.recognises(std::string("\1\0\0\0\2\0\0\0\4\0\0\0", 12)));
-}
-
 TEST_CASE("a .meshb from elsewhere is binary, and 64 bits wide where references need it") {
   const ScratchFolder folder;
   MeshDocument document;

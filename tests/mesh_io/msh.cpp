@@ -307,14 +307,6 @@ TEST_CASE("tags beyond what a version holds are refused, and said to be so by re
   CHECK(reading(wide, 1).find("refers to node 2, which the file does not have") != std::string::npos);
 }
 
-TEST_CASE("MSH is told by its first line") {
-  CHECK(msh_codec.recognises("\r\n$MeshFormat \r\n"));
-  CHECK(msh_codec.recognises("$Comments\nx\n"));
-  CHECK(msh_codec.recognises("$NOD\n"));
-  CHECK_FALSE(msh_codec.recognises("4 2 1\n"));
-  CHECK_FALSE(msh_codec.recognises(""));
-}
-
 TEST_CASE("a document from elsewhere becomes an MSH file with entities for its groups") {
   MeshDocument document;
   document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};

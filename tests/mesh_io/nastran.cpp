@@ -457,19 +457,4 @@ TEST_CASE("Nastran: a mesh of another format is written in large field, with its
         std::vector<ValueName>{{4, 2, "sand and clay"}});
 }
 
-TEST_CASE("Nastran: files are known by their first words") {
-  for (const std::string text :
-       {"BEGIN BULK\n", "$ a comment\n\n  begin bulk\r\n", "SOL 101\nCEND\nBEGIN BULK\n", "ID A,B\nSOL 1\nBEGIN BULK",
-        "GRID,1,,0.\n", "GRID    1               0.\n", "GRID*   1\n", "$\nCTRIA3  1       1       1       2       3\n",
-        "\xEF\xBB\xBFgrid\t1\n", "NASTRAN BUFFSIZE=1\nCEND\nBEGIN BULK\n"}) {
-    CAPTURE(text);
-    CHECK(trismooth::nastran_codec.recognises(text));
-  }
-  for (const std::string text : {"", "$ only\n", "OFF\n", "GRID of the bay\n4 5\n", "SOL 101\n", "ID 1\n", "solid a\n",
-                                 "GRIDS,1\n", "MESH2D\n", "*HEADING\n", "BEGIN\n"}) {
-    CAPTURE(text);
-    CHECK_FALSE(trismooth::nastran_codec.recognises(text));
-  }
-}
-
 }  // namespace trismooth::nastran_test

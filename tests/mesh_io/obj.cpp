@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -149,30 +148,6 @@ TEST_CASE("OBJ: what breaks the rules is refused with its place") {
                                    7)) == "mesh.obj:1: expected a statement of OBJ, got '?ELF??\?'");
 }
 
-TEST_CASE("OBJ: a file cut off anywhere is refused or states what its lines state") {
-  const std::string file =
-      "# head\r\nv 0 0 0\r\nv 10 0 0\r\nv 0 1 0 # c\nv 5 \\\n5 0\nusemtl a\nf 1/1 2/1 3//2\nf -1 -2 "
-      "-3\nl 1 2 3\np 4\n";
-  // Counted by lines alone; a statement counts as soon as its keyword and a number stand there.
-  for (std::size_t length = 0; length < file.size(); ++length) {
-    const std::string cut = file.substr(0, length);
-    try {
-      const MeshDocument document = obj.read(cut);
-      std::istringstream lines(replace_all(replace_all(cut, "\\\n", " "), "\r", ""));
-      std::size_t vertices = 0;
-      std::size_t cells = 0;
-      for (std::string line; std::getline(lines, line);) {
-        vertices += line.substr(0, 1) == "v" ? 1 : 0;
-        cells += line.substr(0, 1) == "f" || line.substr(0, 1) == "l" || line.substr(0, 1) == "p" ? 1 : 0;
-      }
-      CHECK(document.point_count() == vertices);
-      CHECK(document.cells.size() == cells);
-      CHECK(obj.written(document) == cut);
-    } catch (const ReadError&) {
-    }
-  }
-}
-
 TEST_CASE("OBJ: writing back changes the coordinates that changed and no other byte") {
   std::mt19937 random(2);
   const auto pick = [&](const std::vector<std::string>& choices) { return choices[random() % choices.size()]; };
@@ -239,19 +214,6 @@ TEST_CASE("OBJ: a mesh from elsewhere is written with its exact coordinates and 
 TEST_CASE("OBJ: a mesh of nothing is written as a file that can be read") {
   CHECK(obj.written({}) == "# no vertices\n");
   CHECK(obj.read(obj.written({})).points.empty());
-}
-
-TEST_CASE("OBJ: what OFF holds survives the way there and back") {
-  const ScratchFolder folder;
-  const std::string faces = house.substr(0, house.find("l 1"));
-  const MeshDocument document = obj.read(faces);
-  write_mesh(folder / "mesh.off", document);
-  const MeshDocument as_off = read_mesh(folder / "mesh.off");
-  CHECK(as_off.points == document.points);
-  CHECK(as_off.cells.types == document.cells.types);
-  CHECK(as_off.cells.connectivity == document.cells.connectivity);
-  write_mesh(folder / "mesh.obj", as_off);
-  CHECK(bytes_of(folder / "mesh.obj") == faces);
 }
 
 }  // namespace trismooth::obj_test

@@ -56,14 +56,12 @@ struct Coordinate {
   std::string text;
 };
 
-using Coordinates = std::vector<std::array<Coordinate, 3>>;
-
 /// A square of two triangles and a quad, its coordinates in texts that no writer would choose.
-inline const Coordinates square{{{{0, "0"}, {0, "-0.0"}, {0, "0e5"}}},
-                                {{{1, "1.000"}, {0, "0"}, {0, "0"}}},
-                                {{{1, "+1"}, {1, "1e0"}, {0, "0"}}},
-                                {{{0, "0"}, {1, "01"}, {0, "0"}}},
-                                {{{0.5, ".5"}, {0.25, "0.25"}, {0, "0"}}}};
+inline const std::vector<std::array<Coordinate, 3>> square{{{{0, "0"}, {0, "-0.0"}, {0, "0e5"}}},
+                                                           {{{1, "1.000"}, {0, "0"}, {0, "0"}}},
+                                                           {{{1, "+1"}, {1, "1e0"}, {0, "0"}}},
+                                                           {{{0, "0"}, {1, "01"}, {0, "0"}}},
+                                                           {{{0.5, ".5"}, {0.25, "0.25"}, {0, "0"}}}};
 
 inline const std::string square_header_body =
     "comment made by hand\nobj_info nothing\nelement vertex 5\nproperty double x\nproperty uchar red\n"
@@ -71,11 +69,11 @@ inline const std::string square_header_body =
     "element face 3\nproperty char side\nproperty list uchar int vertex_indices\nproperty list int float uv\n"
     "property ushort region\nend_header\n";
 
-/// The square in one flavour: vertex rows of 8 + 1 + 8 + 8 bytes in the binary ones.
-inline std::string square_file(Flavour flavour, const Coordinates& points = square) {
+/// The square in one flavour.
+inline std::string square_file(Flavour flavour) {
   Rows rows(flavour);
   std::uint8_t red = 250;
-  for (const auto& [x, y, z] : points) {
+  for (const auto& [x, y, z] : square) {
     rows.add(x.value, x.text).add(red++).add(y.value, y.text).add(z.value, z.text).end();
   }
   rows.add(std::uint8_t{2}).add(std::int16_t{-3}).add(std::int16_t{4}).add(1.5F, "1.5").end();

@@ -1,8 +1,6 @@
 // Text and binary files read in parts of any size, by any number of threads: the same document, notes and messages.
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -78,48 +76,6 @@ void add_off_samples(std::vector<Sample>& all) {
   add("two colour numbers", "OFF", " 1 2", mixed);
 }
 
-/// In the dialects of Geomview, whose faces count their colours, and of OpenMesh.
-void add_binary_off_samples(std::vector<Sample>& all) {
-  for (const bool big_endian : {true, false}) {
-    for (const std::string keyword : {"OFF", "STNOFF", "CNOFF", "NCOFF"}) {
-      for (const std::string change : {"none", "an index", "a colour", "a coordinate", "a degree", "the end"}) {
-        std::string data = keyword + " BINARY\n";
-        const auto put = [&](auto number) {
-          const std::string stored(reinterpret_cast<const char*>(&number), sizeof(number));
-          data += big_endian ? std::string(stored.rbegin(), stored.rend()) : stored;
-        };
-        const bool coloured = keyword.find('C') != std::string::npos;
-        put(std::uint32_t{9});
-        put(std::uint32_t{8});
-        put(std::uint32_t{0});
-        const int fields = keyword == "OFF" ? 0 : keyword == "STNOFF" ? 5 : 6;
-        for (int i = 0; i < 9; ++i) {
-          for (int j = 0; j < 3 + fields; ++j) {
-            put(i == 5 && j == 1 && change == "a coordinate" ? std::numeric_limits<float>::infinity()
-                                                             : static_cast<float>(10 * i + j));
-          }
-        }
-        for (std::uint32_t i = 0; i < 8; ++i) {
-          const std::uint32_t degree = i == 6 && change == "a degree" ? 2 : 3 + i % 3;
-          put(degree);
-          for (std::uint32_t corner = 0; corner < degree; ++corner) {
-            put(corner + (i == 6 && change == "an index" ? 7 : 0));
-          }
-          const std::uint32_t components = i == 6 && change == "a colour" ? 4 : coloured ? 3 : 0;
-          if (big_endian) {
-            put(components);
-          }
-          for (std::uint32_t j = 0; j < components; ++j) {
-            put(20 * i + j);
-          }
-        }
-        data.resize(data.size() - (change == "the end" ? 3 : 0));
-        all.push_back({"OFF: binary, " + keyword + ", changed: " + change, trismooth::off_codec, data});
-      }
-    }
-  }
-}
-
 void add_ply_samples(std::vector<Sample>& all) {
   const std::string head = "element vertex 9\nproperty double x\nproperty float y\nproperty double z\n";
   const std::string list = "element face 8\nproperty list uchar int vertex_indices\n";
@@ -150,44 +106,6 @@ void add_ply_samples(std::vector<Sample>& all) {
   add("large whole numbers", "property uint64 a\nproperty int64 b\n", "", " 18446744073709551615 -9223372036854775808",
       mixed);
   add("another list", "property list uchar int more\n", "", " 2 7 7", mixed);
-  for (const bool swapped : {false, true}) {
-    for (const bool of_one_degree : {false, true}) {
-      for (const std::int32_t last : {8, 9, -1}) {
-        std::string data = std::string("ply\nformat ") + (swapped ? "binary_big_endian" : "binary_little_endian") +
-                           " 1.0\n" + head + bytes + list + bytes + "end_header\n";
-        const auto put = [&](auto number) {
-          const std::string stored(reinterpret_cast<const char*>(&number), sizeof(number));
-          data += swapped ? std::string(stored.rbegin(), stored.rend()) : stored;
-        };
-        const auto put_scalars = [&](int i) {
-          put(static_cast<std::uint8_t>(200 + i));
-          put(static_cast<std::int8_t>(-i));
-          put(0.25F * static_cast<float>(i));
-        };
-        for (int i = 0; i < 9; ++i) {
-          put(0.5 + i);
-          put(0.25F * static_cast<float>(i * i));
-          put(0.0);
-          put_scalars(i);
-        }
-        for (int i = 0; i < 8; ++i) {
-          const int degree = of_one_degree ? 3 : 3 + i % 3;
-          put(static_cast<std::uint8_t>(degree));
-          for (int corner = 0; corner < degree; ++corner) {
-            put(i == 6 && corner == 1 ? last : std::int32_t{corner});
-          }
-          put_scalars(i);
-        }
-        all.push_back({"PLY: binary", trismooth::ply_codec, data});
-        for (const std::string fewer : {"vertex 8", "face 7"}) {
-          const std::string declared = fewer == "face 7" ? "face 8" : "vertex 9";
-          std::string changed = data;
-          changed.replace(changed.find(declared), declared.size(), fewer);
-          all.push_back({"PLY: binary, " + fewer, trismooth::ply_codec, changed});
-        }
-      }
-    }
-  }
 }
 
 void add_stl_samples(std::vector<Sample>& all) {
@@ -213,20 +131,6 @@ void add_stl_samples(std::vector<Sample>& all) {
   add("no number", "solid a\n" + facets(3, "vertex 1 2 x\n") + "endsolid\n");
   add("four vertices", "solid a\n" + facets(3, "vertex 1 2 3\n") + "endsolid\n");
   add("all in capitals", "SOLID a\n" + facets(3, "VERTEX 1 2 3\n") + "ENDSOLID\n");
-  for (const float odd : {0.0F, -0.0F, std::numeric_limits<float>::infinity()}) {
-    for (const std::size_t more : {0, 1, 50}) {
-      std::string data(80, ' ');
-      const auto put = [&data](auto number) { data.append(reinterpret_cast<const char*>(&number), sizeof(number)); };
-      put(std::uint32_t{12});
-      for (int i = 0; i < 12; ++i) {
-        for (int j = 0; j < 12; ++j) {
-          put(i == 7 && j == 8 ? odd : static_cast<float>(j < 3 ? 0 : (i + j) % 4));
-        }
-        put(static_cast<std::uint16_t>(odd == 0 ? i / 8 : 0));
-      }
-      all.push_back({"STL: binary", trismooth::stl_codec, data + std::string(more, '\0')});
-    }
-  }
 }
 
 std::vector<Sample> samples() {
@@ -302,7 +206,6 @@ std::vector<Sample> samples() {
   add_obj("comments alone", "# nothing\n\n");
   add_obj("nothing", "");
   add_off_samples(all);
-  add_binary_off_samples(all);
   add_ply_samples(all);
   add_stl_samples(all);
   part_samples::add_msh_samples(all);

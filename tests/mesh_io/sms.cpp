@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -117,13 +116,6 @@ TEST_CASE("2dm: tables behind cards that are kept, as of time curves, are kept w
   CHECK(says(sms.failure_of(river + "ND 6 3 3 0\n7 4 4 0\n"), "expected a card, got '7'"));
 }
 
-TEST_CASE("2dm: only numbers of what changed are written, also elevations") {
-  MeshDocument document = sms.read(river);
-  document.points[9] = 0.75;
-  document.point_arrays[0] = make_data_array("elevation", 1, std::vector<double>{-1.25, 2, 3, 4, 5});
-  CHECK(sms.written(document) == replace_all(replace_all(river, "-1.50000000e+000", "-1.25"), "ND 4 0.5", "ND 4 0.75"));
-}
-
 TEST_CASE("2dm: what is wrong is said with its line") {
   struct Fault {
     std::string text;
@@ -182,13 +174,4 @@ TEST_CASE("2dm: a mesh of another format is written with its groups as materials
   CHECK(values_of<double>(again.point_arrays, "elevation") == std::vector<double>{-1.5, 0, 2});
   CHECK(values_of<std::int64_t>(again.cell_arrays, "2dm:material") == std::vector<std::int64_t>{4, 0});
   CHECK(what_is_lost(document, FileFormat::sms).back() == "2dm holds x and y only: z, 1, is not written");
-}
-
-TEST_CASE("2dm: files are known by their first card") {
-  for (const std::string text : {"MESH2D", "MESH2D\r\n", "# one\n  MESH2D # two\n", "\xEF\xBB\xBFMESH2D\n"}) {
-    CHECK(trismooth::sms_codec.recognises(text));
-  }
-  for (const std::string text : {"", "MESH3D\n", "OFF\n", "mesh2d\n"}) {
-    CHECK_FALSE(trismooth::sms_codec.recognises(text));
-  }
 }

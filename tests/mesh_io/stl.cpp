@@ -113,24 +113,7 @@ TEST_CASE("STL: a moved point changes at all its corners, and no other byte does
     MeshDocument document = stl_codec.read("fan.stl", fan_binary(0.5F, 0.25F, 9));
     CHECK(document.point_type == ScalarType::float32);
     document.points[6] = static_cast<double>(0.1F);
-    const std::string before = fan_binary(0.5F, 0.25F, 9);
-    const std::string after = written_back(document);
-    CHECK(after == fan_binary(0.1F, 0.25F, 9));
-    REQUIRE(after.size() == before.size());
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      // The x of the third corner: after the normal and two corners, 12 bytes each.
-      const bool moved = i >= 84 && (i - 84) % 50 >= 36 && (i - 84) % 50 < 40;
-      if (!moved) {
-        REQUIRE(after[i] == before[i]);
-      }
-    }
-  }
-  SECTION("what is read back are the new values") {
-    MeshDocument document = stl_codec.read("fan.stl", fan_text("0.5 .25 0"));
-    document.points = {1e-300, 0, 0, 1, 1e22, 0, 0.1, 0.2, 0.3, 1, 1, 0, 0, 5e-324, 0};
-    const MeshDocument back = stl_codec.read("fan.stl", written_back(document));
-    CHECK(back.points == document.points);
-    CHECK(back.cells.connectivity == fan_corners);
+    CHECK(written_back(document) == fan_binary(0.1F, 0.25F, 9));
   }
 }
 

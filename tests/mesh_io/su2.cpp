@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -69,14 +68,6 @@ TEST_CASE("SU2: the mesh is the same however the file is laid out, and is writte
   check_house(document);
   CHECK(document.notes.empty());
   CHECK((su2.written(document) == file));
-}
-
-TEST_CASE("SU2: numbers of moved points change and nothing else") {
-  const std::string text = replace_all(house, "1 1 2\n", "@ @\t2 0.5 % here\n");
-  MeshDocument document = su2.read(fill(text, {"1.", "+1"}));
-  document.points[6] = 0.1;
-  document.points[7] = 1.0 / 3;
-  CHECK(su2.written(document) == fill(text, {"0.1", shortest(1.0 / 3)}));
 }
 
 TEST_CASE("SU2: zones are one mesh; points that coincide stay two; markers are known by their names") {
@@ -206,15 +197,6 @@ TEST_CASE("SU2: what breaks the rules is refused with the line and the reason") 
   CHECK(su2.failure_of(zone + zone) == "mesh.su2:6: zone 1 stands in the file twice");
   CHECK(su2.failure_of(zone + replace_all(replace_all(zone, "1", "2"), "NDIME= 2", "NDIME= 3")) ==
         "mesh.su2:6: zone 2 has another dimension (NDIME=) than the zones before it");
-}
-
-TEST_CASE("SU2: a file shows what it is by its first keyword") {
-  CHECK(trismooth::recognises_su2(house));
-  CHECK(trismooth::recognises_su2("\xEF\xBB\xBF\r\n% a title\r\n  NZONE = 2\r\n"));
-  for (const std::string text :
-       {"", "\n", "OFF\n3 1 0\n", "NDIME 2\n", "% NDIME= 2\n", "title = NDIME= 2\n", "mesh\n"}) {
-    CHECK_FALSE(trismooth::recognises_su2(text));
-  }
 }
 
 }  // namespace trismooth::su2_test

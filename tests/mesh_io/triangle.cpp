@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <sys/stat.h>
@@ -87,17 +86,6 @@ TEST_CASE("Triangle: either file names the mesh, and both are written back as th
   }
 }
 
-TEST_CASE("Triangle: numbers of moved nodes change and nothing else") {
-  const std::string nodes = replace_all(sample.nodes, "0.75  1.25", "@\t@");
-  MeshDocument document = read_pair({fill(nodes, {".75", "+1.25"}), sample.elements});
-  document.format = FileFormat::triangle;
-  document.points[12] = 0.1;
-  document.points[13] = 1.0 / 3;
-  const Pair written = written_pair(document);
-  CHECK(written.nodes == fill(nodes, {"0.1", shortest(1.0 / 3)}));
-  CHECK(written.elements == sample.elements);
-}
-
 TEST_CASE("Triangle: the mesh is the same however its files are laid out") {
   const std::string from_zero = "5\n0 0 0\n1 2 0\n2 2 2\n3 0 2\n4 .75 1.25\n";
   const std::string cells_from_zero = "4\n0 0 1 4\n1 1 2 4\n2 2 3 4\n3 3 0 4\n";
@@ -176,17 +164,6 @@ TEST_CASE("Triangle: what breaks the rules is refused with the file, the line an
   elements("3     4     5", "3     0     5", ":4: expected a node from 1 to 5, got '0'");
   elements("4  3  1", "4 3 2000", ":1: declares 2000 attributes, more than the 1000 that are read");
   check({"", sample.elements}, "mesh.node:1: expected the number of nodes, got the end of the file");
-}
-
-TEST_CASE("Triangle: a file cut anywhere is refused, but behind its last row") {
-  for (std::size_t cut = 0; cut < sample.nodes.find("# Gen") - 2; ++cut) {
-    CAPTURE(cut);
-    CHECK_THROWS_AS(read_pair({sample.nodes.substr(0, cut), sample.elements}), ReadError);
-  }
-  for (std::size_t cut = 0; cut < sample.elements.find("# Gen") - 3; ++cut) {
-    CAPTURE(cut);
-    CHECK_THROWS_AS(read_pair({sample.nodes, sample.elements.substr(0, cut)}), ReadError);
-  }
 }
 
 TEST_CASE("Triangle: files read in parts of any size are the same mesh, or the same error") {

@@ -83,24 +83,6 @@ TEST_CASE("a VTU or VTP file written back unchanged holds the same in the same e
   }
 }
 
-TEST_CASE("writing twice gives the same bytes, which no longer change when read and written again") {
-  const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
-  for (const VtkXmlEncoding& encoding : all_encodings()) {
-    CAPTURE(to_string(encoding), kind);
-    const TemporaryPath input(extension_of(kind));
-    const TemporaryPath first(extension_of(kind));
-    const TemporaryPath second(extension_of(kind));
-    const TemporaryPath third(extension_of(kind));
-    write_with_vtk(*make_sample(kind, ScalarType::float64, SpecialValues::none), input.path(), encoding);
-    const MeshDocument document = trismooth::read_mesh(input.path());
-    trismooth::write_mesh(first.path(), document);
-    trismooth::write_mesh(second.path(), document);
-    trismooth::write_mesh(third.path(), trismooth::read_mesh(first.path()));
-    CHECK((read_bytes(second.path()) == read_bytes(first.path())));
-    CHECK((read_bytes(third.path()) == read_bytes(first.path())));
-  }
-}
-
 TEST_CASE("the document states what the file holds") {
   const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
   const auto point_type = GENERATE(ScalarType::float32, ScalarType::float64);
