@@ -12,11 +12,11 @@
 #include "support/memory_file.h"
 #include "support/one_file_codec.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace fuzz {
 
 using trismooth::FileFormat;
-using trismooth::MeshDocument;
 
 namespace {
 
@@ -32,15 +32,8 @@ std::vector<Target> make_targets() {
 /// The accepted files have one free vertex; this has more.
 std::string grid(FileFormat format) {
   const test_meshes::Mesh mesh = test_meshes::jittered_grid(5, 5, 0.6, 1);
-  MeshDocument document;
-  for (const test_meshes::Point p : mesh.points) {
-    document.points.insert(document.points.end(), {p.x, p.y, 0});
-  }
-  for (const trismooth::Triangle& triangle : mesh.triangles) {
-    document.cells.append(trismooth::cell_type::triangle, triangle);
-  }
   const test_support::MemoryFile file;
-  test_support::one_file_codec(format).write(file.path(), document);
+  test_support::one_file_codec(format).write(file.path(), triangle_document(mesh));
   return file.bytes();
 }
 

@@ -21,6 +21,7 @@
 #include "support/says.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace trismooth::cell_copies_test {
 
@@ -29,14 +30,8 @@ using Numbers = std::vector<std::int32_t>;
 constexpr std::int32_t side = 12;
 
 MeshDocument document_of(const test_meshes::Mesh& mesh, const std::vector<Triangle>& triangles) {
-  MeshDocument document;
+  MeshDocument document = triangle_document({mesh.points, triangles});
   document.format = trismooth::FileFormat::vtu;
-  for (const auto& point : mesh.points) {
-    document.points.insert(document.points.end(), {point.x, point.y, 0});
-  }
-  for (const Triangle& triangle : triangles) {
-    document.cells.append(cell_type::triangle, triangle);
-  }
   return document;
 }
 

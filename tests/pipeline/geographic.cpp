@@ -18,6 +18,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 using trismooth::make_data_array;
 using trismooth::MeshDocument;
@@ -34,16 +35,12 @@ double to_window(double longitude, double west) {
 
 /// A mesh of `width` by `height` degrees; longitudes have few digits, so that turns round none of them.
 MeshDocument patch(double west, double south, double width, double height, double window = -180) {
-  MeshDocument document;
-  const test_meshes::Mesh mesh = test_meshes::jittered_grid(25, 25, 0.35, 5);
-  for (const auto& [x, y] : mesh.points) {
-    const double longitude = std::round((west + width * x) * 0x1p20) * 0x1p-20;
-    document.points.insert(document.points.end(), {to_window(longitude, window), south + height * y, 0});
+  test_meshes::Mesh mesh = test_meshes::jittered_grid(25, 25, 0.35, 5);
+  for (auto& [x, y] : mesh.points) {
+    x = to_window(std::round((west + width * x) * 0x1p20) * 0x1p-20, window);
+    y = south + height * y;
   }
-  for (const auto& triangle : mesh.triangles) {
-    document.cells.append(trismooth::cell_type::triangle, triangle);
-  }
-  return document;
+  return triangle_document(mesh);
 }
 
 struct Run {

@@ -17,6 +17,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace trismooth::halfedge_stage_test {
 
@@ -24,13 +25,9 @@ using cell_type::triangle;
 
 /// The mesh, of the unit square, as a document; triangles on the left are in region 7, the others in region 3.
 MeshDocument document_of(const test_meshes::Mesh& mesh) {
-  MeshDocument document;
-  for (const auto& p : mesh.points) {
-    document.points.insert(document.points.end(), {p.x, p.y, 0.0});
-  }
+  MeshDocument document = triangle_document(mesh);
   std::vector<std::int32_t> regions;
   for (const Triangle& t : mesh.triangles) {
-    document.cells.append(triangle, t);
     regions.push_back(mesh.points[t[0]].x + mesh.points[t[1]].x + mesh.points[t[2]].x < 1.2 ? 7 : 3);
   }
   document.cell_arrays.push_back(trismooth::make_data_array("region", 1, std::move(regions)));

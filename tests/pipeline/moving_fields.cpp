@@ -12,6 +12,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace trismooth::moving_fields_test {
 
@@ -22,20 +23,16 @@ double plane(double x, double y) {
 /// A mesh with a linear field, a vector of two, whole numbers, and a field that no plane is.
 MeshDocument sample() {
   const test_meshes::Mesh mesh = test_meshes::jittered_grid(25, 25, 0.4, 5);
-  MeshDocument document;
+  MeshDocument document = triangle_document(mesh);
   std::vector<double> heat;
   std::vector<float> wind;
   std::vector<std::int32_t> id;
   std::vector<double> wave;
   for (const auto& [x, y] : mesh.points) {
-    document.points.insert(document.points.end(), {x, y, 0});
     heat.push_back(plane(x, y));
     wind.insert(wind.end(), {static_cast<float>(x), static_cast<float>(-y)});
     id.push_back(static_cast<std::int32_t>(id.size()));
     wave.push_back(std::sin(20 * x) * std::cos(20 * y));
-  }
-  for (const auto& triangle : mesh.triangles) {
-    document.cells.append(trismooth::cell_type::triangle, triangle);
   }
   document.point_arrays = {make_data_array("heat", 1, heat), make_data_array("wind", 2, wind),
                            make_data_array("id", 1, id), make_data_array("wave", 1, wave)};

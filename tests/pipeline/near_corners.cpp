@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "support/says.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace trismooth::near_corners_test {
 
@@ -77,13 +79,11 @@ struct CutMesh {
   explicit CutMesh(double off) {
     const test_meshes::Mesh mesh = test_meshes::jittered_grid(14, 11, 0.4, 3);
     std::vector<std::uint8_t> is_taken(mesh.points.size(), 0);
-    for (const auto& [x, y] : mesh.points) {
-      whole.points.insert(whole.points.end(), {x, y, 0});
-      original.push_back(static_cast<std::int32_t>(original.size()));
-    }
+    whole = triangle_document(mesh);
+    original.resize(mesh.points.size());
+    std::iota(original.begin(), original.end(), 0);
     cut.points = whole.points;
     for (const Triangle& triangle : mesh.triangles) {
-      whole.cells.append(trismooth::cell_type::triangle, triangle);
       Triangle apart = triangle;
       for (std::int32_t& v : apart) {
         if (std::exchange(is_taken[v], std::uint8_t{1}) != 0) {

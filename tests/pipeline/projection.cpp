@@ -14,6 +14,7 @@
 #include "catch.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace trismooth::projection_test {
 
@@ -22,13 +23,10 @@ struct Run {
   PipelineOptions options;
 
   explicit Run(const std::function<double(double, double)>& height, const std::string& extension = ".off") {
-    MeshDocument document;
     const test_meshes::Mesh mesh = test_meshes::jittered_grid(20, 20, 0.3, 5);
-    for (const auto& [x, y] : mesh.points) {
-      document.points.insert(document.points.end(), {x, y, height(x, y)});
-    }
-    for (const auto& triangle : mesh.triangles) {
-      document.cells.append(trismooth::cell_type::triangle, triangle);
+    MeshDocument document = triangle_document(mesh);
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      document.points[3 * v + 2] = height(mesh.points[v].x, mesh.points[v].y);
     }
     options.input = folder / ("in" + extension);
     options.output = folder / ("out" + extension);

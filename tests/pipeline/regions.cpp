@@ -20,6 +20,7 @@
 #include "mesh_io/byte_files.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 using byte_files::contains;
 using trismooth::find_regions;
@@ -36,20 +37,9 @@ namespace {
 
 using Numbers = std::vector<std::int32_t>;
 
-MeshDocument document_of(const test_meshes::Mesh& mesh) {
-  MeshDocument document;
-  for (const auto& [x, y] : mesh.points) {
-    document.points.insert(document.points.end(), {x, y, 0.0});
-  }
-  for (const Triangle& t : mesh.triangles) {
-    document.cells.append(cell_type::triangle, t);
-  }
-  return document;
-}
-
 /// 12 x 12 squares, each cut in two: 288 triangles.
 MeshDocument grid() {
-  return document_of(test_meshes::jittered_grid(13, 13, 0.2, 7));
+  return triangle_document(test_meshes::jittered_grid(13, 13, 0.2, 7));
 }
 
 /// A value for each triangle of grid() by its square's column and row.
@@ -410,7 +400,7 @@ TEST_CASE("random regions on random meshes: what counts holds the ends of the ed
     const auto mesh = test_meshes::shuffled(
         test_meshes::jittered_grid(10 + random.below(8), 10 + random.below(8), 0.3, static_cast<std::uint64_t>(round)),
         static_cast<std::uint64_t>(round) + 100);
-    MeshDocument document = document_of(mesh);
+    MeshDocument document = triangle_document(mesh);
     // The nearest of a few seeds names the region.
     std::vector<trismooth::Point2<double>> seeds;
     for (std::int32_t i = 0; i < 2 + random.below(4); ++i) {

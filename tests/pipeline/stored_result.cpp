@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -18,27 +17,17 @@
 #include "support/naive_smoothing.h"
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace trismooth::stored_result_test {
 
 using test_meshes::Mesh;
 using test_meshes::Point;
 
-MeshDocument linear(const Mesh& mesh) {
-  MeshDocument document;
-  for (const Point p : mesh.points) {
-    document.points.insert(document.points.end(), {p.x, p.y, 2.5});
-  }
-  for (const Triangle& triangle : mesh.triangles) {
-    document.cells.append(cell_type::triangle, triangle);
-  }
-  return document;
-}
-
 /// The mesh with a node in the middle of every side, behind the corners; off the middle by up to `bend` sides.
 MeshDocument quadratic(const Mesh& mesh, double bend, std::uint64_t seed) {
   test_meshes::Random random(seed);
-  MeshDocument document = linear(mesh);
+  MeshDocument document = triangle_document(mesh, 2.5);
   document.cells = {};
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
   const auto middle = [&](std::int32_t a, std::int32_t b) {
@@ -85,32 +74,6 @@ std::vector<Point> in_plane(const MeshDocument& document) {
   return points;
 }
 
-/// The smallest of many values of the Jacobian of a cell of six nodes, from the shape functions.
-double smallest_jacobian(const MeshDocument& document, std::size_t cell) {
-  constexpr int steps = 20;
-  const auto nodes = document.cells[cell];
-  double smallest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= steps; ++i) {
-    for (int j = 0; i + j <= steps; ++j) {
-      const double l1 = double(i) / steps;
-      const double l2 = double(j) / steps;
-      const double l0 = 1 - l1 - l2;
-      const std::array<double, 6> by_l1{1 - 4 * l0, 4 * l1 - 1, 0, 4 * (l0 - l1), 4 * l2, -4 * l2};
-      const std::array<double, 6> by_l2{1 - 4 * l0, 0, 4 * l2 - 1, -4 * l1, 4 * l1, 4 * (l0 - l2)};
-      double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
-      for (std::size_t node = 0; node < 6; ++node) {
-        const double* const p = document.points.data() + 3 * static_cast<std::size_t>(nodes[node]);
-        x1 += by_l1[node] * p[0];
-        y1 += by_l1[node] * p[1];
-        x2 += by_l2[node] * p[0];
-        y2 += by_l2[node] * p[1];
-      }
-      smallest = std::min(smallest, x1 * y2 - y1 * x2);
-    }
-  }
-  return smallest;
-}
-
 /// The linear rule, element by element: see the never-worse check.
 void check_never_worse(const Smoothed& run, const std::vector<Triangle>& triangles) {
   const std::vector<Point> before = in_plane(run.before);
@@ -134,102 +97,6 @@ PipelineOptions with(Method method, bool guard = true) {
   options.smoothing.guard = guard;
   options.smoothing.max_sweeps = 40;
   return options;
-}
-
-TEST_CASE("corners of straight quadratic triangles are smoothed to the bits of the linear mesh") {
-  for (const Method method : {Method::smart, Method::mean_ratio}) {
-    const Mesh mesh = test_meshes::jittered_grid(17, 13, 0.35, 7);
-    const Smoothed plain = smoothed(linear(mesh), with(method));
-    const Smoothed curved = smoothed(quadratic(mesh, 0, 1), with(method));
-    const std::size_t numbers = 3 * mesh.points.size();
-    CHECK(same_bits(std::span(plain.after.points).first(numbers), std::span(curved.after.points).first(numbers)));
-    CHECK(curved.result.smoothing->moved_vertices == plain.result.smoothing->moved_vertices);
-    CHECK(curved.result.smoothing->moved_vertices > 100);
-    CHECK(curved.result.input.free_vertices == plain.result.input.free_vertices);
-    CHECK(curved.result.input.fixed_vertices == plain.result.input.fixed_vertices);
-    CHECK(curved.result.input.held.unused == 0);
-    CHECK(curved.result.input.held.other_cells == 0);
-    CHECK(curved.result.input.quadratic_triangles == std::ssize(mesh.triangles));
-    CHECK(curved.result.input.middle_nodes == std::ssize(curved.before.points) / 3 - mesh.vertex_count());
-    CHECK(curved.result.quadratic_after->invalid == 0);
-    CHECK(curved.result.quadratic_after->min_jacobian == Approx(1).epsilon(1e-9));
-    for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
-      const auto nodes = curved.after.cells[c];
-      for (std::size_t side = 0; side < 3; ++side) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const auto at = [&](std::int32_t v) { return curved.after.points[3 * static_cast<std::size_t>(v) + axis]; };
-          REQUIRE(std::abs(at(nodes[3 + side]) - (at(nodes[side]) + at(nodes[(side + 1) % 3])) / 2) <= 4e-16);
-        }
-      }
-    }
-    check_places(curved);
-  }
-}
-
-TEST_CASE("curved meshes never get worse: valid elements stay valid, by samples of the Jacobian") {
-  int lost_without_guard = 0;
-  std::int64_t put_back = 0;
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-    const Method method = std::array{Method::smart, Method::laplacian, Method::mean_ratio}[seed % 3];
-    const Mesh mesh = test_meshes::jittered_grid(11, 9, 0.3, seed);
-    const MeshDocument document = quadratic(mesh, 0.02 + 0.01 * static_cast<double>(seed % 12), seed);
-    const Smoothed guarded = smoothed(document, with(method));
-    const Smoothed loose = smoothed(document, with(method, false));
-    check_never_worse(guarded, mesh.triangles);
-    check_places(guarded);
-    CAPTURE(seed);
-    for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
-      // Well above what the smallest value may be below these samples.
-      if (smallest_jacobian(document, c) > 2e-4) {
-        lost_without_guard += smallest_jacobian(loose.after, c) > 0 ? 0 : 1;
-        REQUIRE(smallest_jacobian(guarded.after, c) > 0);
-      }
-    }
-    CHECK(guarded.result.quadratic_after->invalid <= guarded.result.quadratic_before->invalid);
-    put_back += guarded.result.smoothing->reverted_vertices;
-    // A middle goes where its side's ends go, at the fraction of the side at which its foot was.
-    const auto share = [&](std::int32_t first, std::int32_t middle, std::int32_t second) {
-      double along = 0;
-      double length = 0;
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const auto at = [&](std::int32_t v) { return document.points[3 * static_cast<std::size_t>(v) + axis]; };
-        along += (at(second) - at(first)) * (at(middle) - at(first));
-        length += (at(second) - at(first)) * (at(second) - at(first));
-      }
-      return along / length;
-    };
-    const auto move = [&](std::int32_t v, std::size_t axis) {
-      const std::size_t i = 3 * static_cast<std::size_t>(v) + axis;
-      return guarded.after.points[i] - document.points[i];
-    };
-    for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
-      const auto nodes = document.cells[c];
-      for (std::size_t side = 0; side < 3; ++side) {
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-          const std::int32_t first = nodes[side];
-          const std::int32_t second = nodes[(side + 1) % 3];
-          const double at = share(first, nodes[3 + side], second);
-          const double ends = move(first, axis) + at * (move(second, axis) - move(first, axis));
-          REQUIRE(std::abs(move(nodes[3 + side], axis) - ends) <= 1e-15);
-          REQUIRE((move(first, axis) != 0 || move(second, axis) != 0 || move(nodes[3 + side], axis) == 0));
-        }
-      }
-    }
-  }
-  CHECK(lost_without_guard > 0);
-  CHECK(put_back > 0);
-}
-
-TEST_CASE("curved results are the same for every number of threads") {
-  const MeshDocument document = quadratic(test_meshes::jittered_grid(120, 90, 0.3, 5), 0.08, 5);
-  PipelineOptions options = with(Method::smart);
-  options.smoothing.threads = 1;
-  const Smoothed one = smoothed(document, options);
-  options.smoothing.threads = 4;
-  const Smoothed four = smoothed(document, options);
-  CHECK(same_bits(one.after.points, four.after.points));
-  CHECK(one.result.smoothing->guard_rounds == four.result.smoothing->guard_rounds);
-  CHECK(one.result.unguarded_hash == four.result.unguarded_hash);
 }
 
 TEST_CASE("a middle that is named stays with its side's ends") {
@@ -277,7 +144,7 @@ TEST_CASE("what a file of few characters holds is what is judged") {
   for (const std::size_t characters : {5U, 6U, 8U, 12U}) {
     for (const Method method : {Method::smart, Method::laplacian}) {
       const Mesh mesh = test_meshes::jittered_grid(13, 11, 0.45, characters);
-      MeshDocument document = linear(mesh);
+      MeshDocument document = triangle_document(mesh, 2.5);
       document.most_coordinate_characters = characters;
       const Smoothed run = smoothed(document, with(method));
       check_never_worse(run, mesh.triangles);
@@ -304,7 +171,7 @@ TEST_CASE("what a file of few characters holds is what is judged") {
 TEST_CASE("turned components are as they were read or as they were turned, also where few characters are stored") {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const Mesh mesh = test_meshes::tangled(9, seed);
-    MeshDocument document = linear(mesh);
+    MeshDocument document = triangle_document(mesh, 2.5);
     document.most_coordinate_characters = 7;
     PipelineOptions options = with(Method::mean_ratio);
     options.smoothing.untangle = trismooth::Untangle::on;
