@@ -9,18 +9,19 @@ import pathlib
 import re
 import sys
 
-FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "options", "result", "sliding")},
+FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "method", "options", "result",
+                                                                 "sliding")},
          "cuda/device_constraints.h": "cuda faces",
          # What runs the program, from the shell and from Python.
          "pipeline/cli/main.h": "pipeline programs", "python/src/files.h": "pipeline programs"}
 
-SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/parts", "smoothing/layers",
-             "smoothing/rings", "smoothing/halo", "smoothing/sweeps", "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
+SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/parts", "smoothing/layers", "smoothing/rings",
+             "smoothing/methods", "smoothing/halo", "smoothing/sweeps", "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
 MAY_USE = {
     "base": [],
     "quality": ["base"],
-    "smoothing faces": ["base"],
-    "smoothing/methods": ["base", "quality", "smoothing faces"],
+    "smoothing faces": ["base", "smoothing faces"],
+    "smoothing/methods": ["base", "quality", "smoothing faces", "smoothing/rings"],
     "smoothing/parts": [],
     "smoothing/layers": ["base", "quality", "smoothing faces"],
     "smoothing/rings": ["base", "quality", "smoothing faces", "smoothing/parts", "smoothing/layers"],
@@ -29,7 +30,7 @@ MAY_USE = {
     "smoothing/slide": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard"],
     "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/parts", "smoothing/rings",
                          "smoothing/halo", "smoothing/slide"],
-    "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/guard"],
+    "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard"],
     "smoothing": SMOOTHING,
     "smoothing/in_parts": SMOOTHING,
     "space": ["base"],

@@ -25,12 +25,14 @@ BrokenPipeIsError::BrokenPipeIsError() {
 }
 
 BrokenPipeIsError::~BrokenPipeIsError() {
+  const int error = errno;  // of the write
   if (sigismember(&signals_before_, SIGPIPE) == 0) {
     const sigset_t signals = broken_pipe_signal();
     constexpr timespec no_time{};
     ::sigtimedwait(&signals, nullptr, &no_time);  // one that is pending is of our writes
     ::pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
   }
+  errno = error;
 }
 
 bool write_to_descriptor(int descriptor, std::string_view bytes) {

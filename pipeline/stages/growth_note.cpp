@@ -14,6 +14,7 @@
 
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/methods/mean_ratio_targets.h"
 
 namespace trismooth {

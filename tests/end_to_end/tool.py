@@ -72,7 +72,7 @@ class ToolTest(unittest.TestCase):
 
     def methods(self):
         """The names of all methods, as the program lists them."""
-        return re.search(r"valid are (.*)", self.run_tool("smooth", "a", "b", "--method", "", expect=2).err)[1].split(", ")
+        return re.search(r"valid are ([^;\n]*)", self.run_tool("smooth", "a", "b", "--method", "", expect=2).err)[1].split(", ")
 
     def report(self, *arguments, **options):
         """Runs the program quietly with a JSON report; returns that report."""
