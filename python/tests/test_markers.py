@@ -68,6 +68,14 @@ def test_marked_vertices_are_held_and_named_with_the_way_out(
         assert notes == []
 
 
+@pytest.mark.parametrize("make", MAKERS)
+def test_the_array_fixed_holds_as_well(make: Callable[..., Any]) -> None:
+    mesh = make("medit:ref", MARKS)
+    mesh.point_data["fixed"] = (G.column == 3).astype(int)
+    _, moved, _ = smoothed(mesh)
+    assert np.array_equal(moved, G.is_inside & ~SEGMENT & ~ELECTRODE & (G.column != 3))
+
+
 def test_lines_slide_though_their_vertices_are_marked() -> None:
     line = G.vertex(0, 3) + np.arange(11)
     lines = np.column_stack([line[:-1], line[1:]])

@@ -9,6 +9,17 @@ import trismooth
 from conftest import grid
 
 
+def test_known_triangles():
+    h = np.sqrt(3) / 2
+    points = np.array([[0, 0], [2, 0], [1, 2 * h], [0, -1.0], [1, -1.0], [0, -2.0]])
+    quality = trismooth.quality(points, [[0, 1, 2], [3, 5, 4]])
+    np.testing.assert_allclose(quality.shape, [1, h], rtol=1e-15)
+    np.testing.assert_allclose(quality.area, [2 * h, 0.5], rtol=1e-15)
+    np.testing.assert_allclose(quality.min_angle, [60, 45], rtol=1e-14)
+    np.testing.assert_allclose(quality["max_angle"], [60, 90], rtol=1e-14)
+    np.testing.assert_allclose(quality.edge_ratio, [1, np.sqrt(2)], rtol=1e-15)
+
+
 def test_all_triangles_in_their_order_and_the_summary_agree(mesh):
     points, triangles = mesh
     quality = trismooth.quality(points, triangles)

@@ -54,6 +54,25 @@ def test_worst_triangles_have_the_numbers_of_the_list():
             assert (listed[element.triangle] == triangles[known.triangle]).all()
 
 
+def test_regions_that_overlap_keep_their_border():
+    points, triangles = grid()
+    is_part = part_of(points, triangles)
+    listed = np.concatenate([triangles, triangles[is_part]])
+    labels = np.array(["all"] * len(triangles) + ["part"] * int(is_part.sum()))
+    expected = trismooth.smooth(points, triangles, regions=is_part)
+    with pytest.warns(trismooth.MeshWarning, match=f"{is_part.sum()} triangles are listed in several regions"):
+        result = trismooth.smooth(points, listed, regions=labels)
+    assert (result.points == expected.points).all()
+    assert (result.points != trismooth.smooth(points, triangles).points).any()
+    # Sets of labels in whatever order are one.
+    three = np.concatenate([triangles, triangles[is_part], triangles[is_part]])
+    mixed = np.concatenate([np.where(np.arange(len(triangles)) % 2, 5, 7), np.full(2 * is_part.sum(), 5)])
+    mixed[len(triangles) + is_part.sum():] = 7
+    mixed[: len(triangles)][~is_part] = 5
+    with pytest.warns(trismooth.MeshWarning, match=f"{is_part.sum()} triangles are listed in several regions"):
+        assert (trismooth.smooth(points, three, regions=mixed).points == expected.points).all()
+
+
 def test_a_plan_smooths_each_once():
     points, triangles = grid()
     expected = trismooth.Plan(triangles, len(points), regions=part_of(points, triangles)).smooth(points, quality=True)
@@ -79,6 +98,25 @@ def test_quality_of_copies_is_that_of_the_first():
     np.testing.assert_array_equal(found.shape[7:], expected.shape)
     np.testing.assert_array_equal(found.shape[:7], expected.shape[::-1][:7])
     assert (np.sort(listed[found.summary.worst[0].triangle]) == np.sort(triangles[expected.summary.worst[0].triangle])).all()
+
+
+def test_triangles_of_six_nodes_with_other_middles_hold_their_vertices():
+    points, corners = grid()
+    sides = np.sort(corners[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    ends, number = np.unique(sides, axis=0, return_inverse=True)
+    triangles = np.concatenate([corners, len(points) + number.reshape(-1, 3)], axis=1)
+    points = np.concatenate([points, points[ends].mean(axis=1)])
+    expected = trismooth.smooth(points, triangles)
+    same = np.concatenate([triangles, triangles[:, [2, 1, 0, 4, 3, 5]]])
+    with pytest.warns(trismooth.MeshWarning, match="200 triangles are listed again"):
+        result = trismooth.smooth(points, same)
+    assert (result.points == expected.points).all()
+    other = triangles[45:46].copy()
+    other[0, 4] = len(points)
+    with pytest.warns(trismooth.MeshWarning, match="1 of the triangles that are listed again has other middles"):
+        result = trismooth.smooth(np.concatenate([points, [[5.0, 5.0]]]), np.concatenate([triangles, other]))
+    assert (result.points[:-1][triangles[45]] == points[triangles[45]]).all()
+    assert (result.points[:-1] != points).any()
 
 
 def test_a_mesh_of_meshio_with_groups_that_overlap():

@@ -83,6 +83,19 @@ def test_lines_of_any_integer_type_and_strides(dtype):
         np.testing.assert_array_equal(trismooth.smooth(points, triangles, lines=given, slide="straight").points, expected)
 
 
+def test_a_line_ends_where_its_tag_changes():
+    points, triangles, _, x, _ = uneven_grid()
+    column = np.flatnonzero(x == 6)
+    tags = np.array(["below"] * 4 + ["above"] * 5)
+    given = {"lines": np.column_stack([column[:-1], column[1:]]), "slide": "straight", "method": "mean-ratio"}
+    together = trismooth.smooth(points, triangles, **given)
+    result = trismooth.smooth(points, triangles, line_tags=tags, **given)
+    assert (together.points[column[4]] != points[column[4]]).any()
+    np.testing.assert_array_equal(result.points[column[4]], points[column[4]])
+    again = trismooth.smooth(points, triangles, line_tags=(tags == "below").astype(int) * 70 - 3, **given)
+    np.testing.assert_array_equal(again.points, result.points)
+
+
 @pytest.mark.parametrize("gap", [0, 1e-10])
 def test_parts_that_touch_stay_together_and_a_warning_says_so(gap):
     points, triangles, regions, x, _ = uneven_grid()

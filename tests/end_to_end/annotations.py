@@ -152,6 +152,20 @@ class Annotations(tool.ToolTest):
             self.assertIn("--annotate-metrics", outcome.err)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.vtk"])
 
+    def test_the_input_may_be_annotated_in_place(self):
+        self.write("a.vtk", samples()["a.vtk"])
+        before = self.mesh("a.vtk")
+        for _ in range(2):
+            self.run_tool("quality", "a.vtk", "--annotate", "a.vtk")
+        self.assert_own_arrays_stay(before, self.mesh("a.vtk"))
+        self.assert_annotated(self.mesh("a.vtk"), {"shape"}, {"fixed"})
+
+    def test_smoothing_into_a_format_without_arrays_says_so_and_writes_the_mesh(self):
+        self.write("plate.off", sample_meshes.off(sample_meshes.Grid()))
+        outcome = self.run_tool("smooth", "plate.off", "out.off", "--annotate")
+        self.assertRegex(outcome.err, "note: --annotate")
+        self.assertTrue(os.path.exists(self.path("out.off")))
+
 
 if __name__ == "__main__":
     tool.main()

@@ -96,6 +96,14 @@ class Numbers(BenchTest):
         self.assertEqual(again["command"], self.json["command"])
         self.assertEqual(again["options"], self.json["options"])
 
+    def test_wrong_numbers_of_runs_and_repeated_or_unknown_options_are_told(self):
+        for arguments, says in {("--runs", "0"): "'0'", ("--runs", "1.5"): "'1.5'", ("--runs", "1001"): "'1001'",
+                                ("--sizes", "1K", "--sizes", "2K"): "once", ("--form", "a"): "unknown option"}.items():
+            outcome = self.run_tool("bench", *arguments, expect=2)
+            for words in ("trismooth: error: ", arguments[0], says):
+                self.assertIn(words, outcome.err)
+            self.assertEqual((len(outcome.err.splitlines()), outcome.out), (1, ""))
+
 
 class SameBits(BenchTest):
 

@@ -91,6 +91,17 @@ class SameResult(CommandLineTest):
                   ["coordinates_hash"] for form in "ab" for precision in ("double", "single")]
         self.assertEqual(len(set(hashes)), 4)
 
+    def test_stops_are_told_by_their_reason(self):
+        for arguments, reason in {("--max-sweeps", "2"): "sweep_limit", ("--tolerance", "0.5"): "tolerance",
+                                  ("--tolerance", "0", "--max-sweeps", "0"): "fixed_point",
+                                  ("--method", "mean-ratio"): "few_moves",
+                                  ("--target-quality", "-1"): "quality_target"}.items():
+            with self.subTest(reason):
+                report = self.report("smooth", "random.off", "out.off", *arguments)
+                self.assertEqual(report["smoothing"]["stop_reason"], reason)
+                if reason == "fixed_point":
+                    self.assertEqual(report["smoothing"]["history"][-1]["moved"], 0)
+
 
 if __name__ == "__main__":
     tool.main()

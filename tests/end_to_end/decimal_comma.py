@@ -49,6 +49,18 @@ class DecimalComma(tool.ToolTest):
             outputs.append(self.read(output))
         return outcomes, outputs
 
+    def test_every_format_is_written_and_read_with_points(self):
+        self.write("plate.off", sample_meshes.off(sample_meshes.Grid()))
+        known = self.run_tool("smooth", "plate.off", "out.xyz", expect=4).err
+        for extension in sorted({*re.findall(r"\.(\w+)", known.split("known are ")[1])} - {"node", "ele"}):
+            with self.subTest(extension):
+                output = "converted." + extension
+                _, outputs = self.both("smooth", "plate.off", output, "--quiet", "--max-sweeps", 1, output=output)
+                self.assertTrue(outputs[0] == outputs[1], "the bytes differ")
+                again = "again." + extension
+                _, outputs = self.both("smooth", output, again, "--quiet", output=again)
+                self.assertTrue(outputs[0] == outputs[1], "the bytes differ")
+
     def test_reports_and_what_is_printed_have_points(self):
         self.write("plate.vtk", sample_meshes.legacy_vtk(sample_meshes.Grid(20)))
         counts = []

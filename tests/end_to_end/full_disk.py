@@ -198,6 +198,16 @@ class OtherRefusals(FullDiskTest):
         shutil.chown(self.path("disk/old.off"), nobody, nobody)
         self.assert_refused_everywhere("Permission denied", user=nobody)
 
+    def test_a_file_of_somebody_else_in_a_folder_for_all(self):
+        os.chmod(self.folder, 0o777)
+        os.chmod(self.path("disk/old.off"), 0o444)
+        try:
+            outcome = self.run_tool("smooth", "plate.off", "disk/old.off", user=65534)
+        except (PermissionError, OSError) as error:
+            self.skipTest(f"nobody else can run the program: {error}")
+        self.assert_told(outcome, "disk/old.off", "Permission denied")
+        self.assertEqual(self.read("disk/old.off"), b"precious")
+
     def assert_reports_survive(self, reason, user=None):
         """The mesh cannot take its place, which shows at the last moment: the old reports are there, and no new one."""
         before = {name: self.read(f"disk/{name}") for name in self.disk.names()}

@@ -294,6 +294,11 @@ class OtherCommands(KilledTest):
         self.assertEqual((outcome.code, outcome.err), (CANCELLED, "trismooth: error: cancelled\n"))
         self.assertEqual(sorted(os.listdir(self.folder)), ["pipe.json", "plate.off"])
 
+    def test_an_interrupt_of_generate_leaves_nothing(self):
+        outcome = self.interrupt_when(lambda process: time.sleep(0.5), "generate", "out.off", "--vertices", "3000000")
+        self.assertEqual((outcome.code, outcome.err), (CANCELLED, "trismooth: error: cancelled\n"))
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_what_is_ignored_stays_ignored(self):
         self.run_tool("generate", "plate.off", "--vertices", "400", "--boundary", "resolved")
         os.mkfifo(self.path("pipe.off"))

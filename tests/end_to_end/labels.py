@@ -139,6 +139,37 @@ class Labels(tool.ToolTest):
         self.assertEqual({found["name"]: found["vertices"] for found in listed if found["holds"]},
                          {name: len(points) for name, points in members.items()})
 
+    def test_sets_by_the_numbers_of_points(self):
+        marker = lambda i: 7 if i % 9 in (3, 4) else -2 if i in self.held else 0
+        points_of = lambda number: {i for i in range(81) if marker(i) == number}
+        for extension, array in ((".node", "triangle:marker"), (".mesh", "medit:ref"), (".msh", "freefem:label")):
+            with self.subTest(extension):
+                self.write_marked(extension, marker)
+                self.assert_sets_hold("in" + extension, {f"{array}=7": points_of(7)}, f"{array}=7")
+                both = {f"{array}=7": points_of(7), f"{array}=-2": points_of(-2)}
+                self.assert_sets_hold("in" + extension, both, f"{array.upper()}=-2", f"{array}=7", f"{array}=07")
+
+    def test_sets_by_the_numbers_of_cells(self):
+        """Those of triangles hold the triangles' points, those of lines and points theirs, and one number all of these."""
+        points, cells = self.grid.points, [cell for _, cell in self.grid.cells]
+        area = {v for v in range(81) if 2 <= v % 9 <= 4 and 2 <= v // 9 <= 4}
+        tags = [6 if area.issuperset(cell) else 1 for cell in cells]
+        edges = [(v, v + 1) for v in range(0, 8)]
+        elements = ([f"2 2 {tag} {tag} " + " ".join(str(v + 1) for v in cell) for tag, cell in zip(tags, cells)] +
+                    [f"1 2 4 4 {a + 1} {b + 1}" for a, b in edges] + ["15 2 6 6 9"])
+        self.write("in.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n"
+                   "1 6 \"wall\"\n2 6 \"coil\"\n$EndPhysicalNames\n$Nodes\n81\n" +
+                   "".join(f"{i + 1} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points)) +
+                   f"$EndNodes\n$Elements\n{len(elements)}\n" +
+                   "".join(f"{i + 1} {element}\n" for i, element in enumerate(elements)) + "$EndElements\n")
+        self.run_tool("smooth", "in.msh", "in.vtu", "--fixed-ids", self.all_rows())
+        for name in ("in.msh", "in.vtu"):
+            for array in ("gmsh:physical", "gmsh:geometrical"):
+                with self.subTest(name, array=array):
+                    members = {f"{array}=6": area | {8}, f"{array}=4": set(range(9))}
+                    self.assert_sets_hold(name, members, *members)
+        self.assert_sets_hold("in.msh", {"gmsh:physical=coil": area}, "gmsh:physical=coil")
+
     def test_a_group_that_overlaps_others_has_all_of_its_cells(self):
         """UNV: each element has one number in the array, that of the smallest group."""
         points, cells = self.grid.points, [cell for _, cell in self.grid.cells]

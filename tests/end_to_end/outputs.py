@@ -1,6 +1,7 @@
 """Targets that are no ordinary file, or do not stay one; and standard streams that are closed, full or gone."""
 
 import itertools
+import json
 import os
 import resource
 import subprocess
@@ -140,6 +141,12 @@ class Changes(OutputsTest):
         self.assert_told(outcome, "folder/r.json", "No such file or directory")
         self.assertFalse(os.path.exists(self.path("out.off")))
 
+    def test_somebody_else_writes_the_target_and_the_last_one_wins(self):
+        outcome = self.after(lambda: self.write("out.off", "of somebody else"), "smooth", "pipe.off", "out.off")
+        self.assertEqual(outcome.code, DONE, outcome)
+        self.run_tool("smooth", "plate.off", "whole.off")
+        self.assertEqual(self.read("out.off"), self.read("whole.off"))
+
 
 class Names(OutputsTest):
 
@@ -157,6 +164,16 @@ class Names(OutputsTest):
                         self.assertTrue(os.path.islink(self.path("name.off")))
                     os.remove(self.path("name.off"))
         self.assert_no_temporary_files()
+
+    def test_another_name_of_the_old_file_keeps_that_and_a_link_or_name_that_cannot_be_is_told(self):
+        self.write("one.off", "precious")
+        os.link(self.path("one.off"), self.path("other.off"))
+        self.run_tool("smooth", "plate.off", "one.off")
+        self.assertNotEqual(self.read("one.off"), b"precious")
+        self.assertEqual(self.read("other.off"), b"precious")
+        os.symlink("nowhere/new.off", self.path("link.off"))
+        for target, reason in (("link.off", "No such file or directory"), ("x" * 252 + ".off", "File name too long")):
+            self.assert_told(self.run_tool("smooth", "plate.off", target, expect=NOT_WRITTEN), target, reason)
 
 
 class Pipes(OutputsTest):
@@ -204,9 +221,21 @@ class StandardStreams(OutputsTest):
         self.assert_no_temporary_files()
         os.remove(self.path("out.vtu"))
 
+    def test_a_standard_output_that_takes_nothing(self):
+        with open("/dev/full", "wb") as full:
+            for arguments in (("smooth", "plate.vtu", "out.vtu", "--require", "min_shape>2"), ("--help",), ("info",),
+                              ("bench", "--sizes", "100", "--runs", "1", "--versions", "cpu")):
+                with self.subTest(arguments):
+                    self.assert_told(self.end(self.start(*arguments, stdout=full)), "standard output",
+                                     "No space left on device")
+                    self.assertFalse(os.path.exists(self.path("out.vtu")))
+            outcome = self.end(self.start("smooth", "plate.vtu", "out.vtu", "--quiet", stdout=full))
+            self.assertEqual((outcome.code, outcome.err), (DONE, ""))
+            self.assert_whole()
+
     def test_a_reader_of_the_standard_output_that_goes_away(self):
         for _ in range(10):
-            process = self.start("smooth", "plate.vtu", "out.vtu")
+            process = self.start("smooth", "plate.vtu", "out.vtu", "--report", "r.json")
             process.stdout.close()
             error = process.stderr.read()
             process.stderr.close()
@@ -214,6 +243,8 @@ class StandardStreams(OutputsTest):
             self.assertEqual(process.wait(timeout=120), -13)
             self.assertEqual(error, "")
             self.assert_whole()
+            json.loads(self.read("r.json"))
+            os.remove(self.path("r.json"))
 
     def test_messages_do_not_go_into_files_where_standard_streams_are_closed(self):
         for closed in itertools.chain.from_iterable(itertools.combinations((0, 1, 2), n) for n in (1, 2, 3)):

@@ -5,9 +5,11 @@ What must stay is worked out here, from the file's triangles and values alone.
 
 import os
 import shlex
+from urllib.parse import quote
 
 import mesh_reader
 import planar_geometry
+import sample_meshes
 import tool
 
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "data")
@@ -73,6 +75,29 @@ class Machine(tool.ToolTest):
         moved, out, err = self.moved("--region-array", "gebiet", name="named.vtu")
         self.assertEqual(moved & self.interface, set())
         self.assertNotIn("note", err)
+
+
+class Texts(tool.ToolTest):
+
+    def test_texts_of_cells_in_files_name_regions_and_stay(self):
+        grid = sample_meshes.Grid()
+        expected = self.report("smooth", self.write("numbers.vtk", sample_meshes.legacy_vtk(grid)), "out.vtk")
+        words = [("air, or \u00e9ther", "copper wire")[region - 1] for region in grid.regions]
+        grid.regions = [1] * len(words)
+        legacy = f"FIELD own 1\nwhat 1 {len(words)} string\n" + "".join(f"{quote(word)}\n" for word in words)
+        numbers = " ".join(str((byte + 128) % 256 - 128) for word in words for byte in (*word.encode(), 0))  # as VTK
+        xml = f'<DataArray type="String" Name="what" format="ascii">{numbers}</DataArray></CellData>'
+        for name, content in {
+                "in.vtk": sample_meshes.legacy_vtk(grid).replace(b"POINT_DATA", legacy.encode() + b"POINT_DATA"),
+                "in.vtu": sample_meshes.vtu(grid).replace(b"</CellData>", xml.encode())}.items():
+            for arguments in ((), ("--region-array", "what")):
+                with self.subTest(name, arguments=arguments):
+                    self.write(name, content)
+                    report = self.report("smooth", name, "out" + name[2:], *arguments)
+                    self.assertEqual([region["region"] for region in report["before"]["regions"]], sorted({*words}))
+                    self.assertEqual(report["coordinates_hash"], expected["coordinates_hash"])
+                    written = " ".join(self.read("out" + name[2:]).decode().split())
+                    self.assertIn(" ".join(legacy.split()) if name == "in.vtk" else numbers, written)
 
 
 if __name__ == "__main__":

@@ -125,6 +125,12 @@ class ScaleTest(tool.ToolTest):
 
         self.for_every_way(points, triangles, check)
 
+    def test_subnormal_coordinates_do_not_get_worse(self):
+        grid, triangles = disturbed_grid()
+        for size in (1e-310, 1e-321, 5e-324):
+            # smooth() judges.
+            self.for_every_way([(size * x, size * y) for x, y in grid], triangles, lambda *result: None)
+
     def test_a_grading_of_a_million_and_more_is_smoothed_in_double_and_not_worse_in_single(self):
         for grading in (1e6, 1e9):
             points, triangles = graded_disc(grading)

@@ -92,6 +92,19 @@ class Sizes(tool.ToolTest):
         self.assertEqual([list(smoothed[v]) for v in interface], [self.points[v] for v in interface])
         self.assertNotEqual(list(smoothed[n + 2]), self.points[n + 2])
 
+    def test_another_method_takes_no_notice_and_says_so(self):
+        self.write("in.vtk", self.vtk())
+        plain = self.report("smooth", "in.vtk", "out.vtk")
+        self.assertEqual((plain["warnings"], plain["size_array"]), ([], None))
+        for options in (("--size-array", "edge_length"), ("--size-array", "no such array"), ("--target", "input-shape"),
+                        ("--size-weight", "2"), ("--size-array", "edge_length", "--power", "4")):
+            with self.subTest(options):
+                report = self.report("smooth", "in.vtk", "out.vtk", *options)
+                self.assertEqual(report["coordinates_hash"], plain["coordinates_hash"])
+                self.assertIsNone(report["size_array"])
+                self.assertEqual(report["warnings"], [
+                    f"the method smart takes no notice of {', '.join(options[::2])}; --method mean-ratio does"])
+
 
 if __name__ == "__main__":
     tool.main()

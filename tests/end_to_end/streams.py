@@ -103,6 +103,11 @@ class Streams(StreamsTest):
         self.assertEqual(code, BAD_INPUT)
         self.assertRegex(err, "standard input: cannot be read: ")
 
+    def test_what_is_wrong_in_a_stream_is_told_with_its_line(self):
+        code, _, err = self.call("quality", "-", data=b"OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n")
+        self.assertEqual(code, BAD_INPUT)
+        self.assertRegex(err, "^trismooth: error: standard input:4: ")
+
 
 class Compressed(StreamsTest):
 

@@ -319,6 +319,16 @@ TEST_CASE("arrays that are named count whatever they hold, several of them toget
   CHECK(two.of_triangle == Numbers{0, 0, 1, 2});
 }
 
+TEST_CASE("all arrays of a name that is given count") {
+  MeshDocument document = grid();
+  add(document, "part", by_square(halves));
+  add(document, "part", by_square(bands));
+  const Regions regions = regions_of(document, {"part"});
+  CHECK(names_of(regions) == Names{"part", "part"});
+  CHECK(regions.arrays[0].held_vertices == 13);
+  CHECK(regions.arrays[1].held_vertices == 26);
+}
+
 TEST_CASE("none switches regions off, and goes with no other array") {
   MeshDocument document = grid();
   add(document, "region", by_square(halves));
