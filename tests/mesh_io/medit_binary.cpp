@@ -111,6 +111,8 @@ TEST_CASE("what breaks the rules of binary Medit is refused with the byte and th
   CHECK(contains(refusal_of_binary(bytes.substr(0, 12)), "it is cut off"));
   // Not binary, then: the careful reader of text says what it is not.
   CHECK(contains(refusal_of_binary(bytes.substr(0, 11)), "is no Medit file"));
+  // Nothing but a dimension comes first.
+  CHECK_FALSE(medit_codec.recognises(std::string("\1\0\0\0\2\0\0\0\4\0\0\0", 12)));
 }
 
 TEST_CASE("a .meshb from elsewhere is binary, and 64 bits wide where references need it") {

@@ -1,6 +1,8 @@
 // Text and binary files read in parts of any size, by any number of threads: the same document, notes and messages.
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "catch.h"
 #include "part_samples.h"
 #include "support/accepted_files.h"
+#include "support/accepted_vtk_files.h"
 #include "support/dice.h"
 #include "support/one_file_codec.h"
 #include "support/readings.h"
@@ -131,6 +134,20 @@ void add_stl_samples(std::vector<Sample>& all) {
   add("no number", "solid a\n" + facets(3, "vertex 1 2 x\n") + "endsolid\n");
   add("four vertices", "solid a\n" + facets(3, "vertex 1 2 3\n") + "endsolid\n");
   add("all in capitals", "SOLID a\n" + facets(3, "VERTEX 1 2 3\n") + "ENDSOLID\n");
+  for (const float odd : {0.0F, -0.0F, std::numeric_limits<float>::infinity()}) {
+    for (const std::size_t more : {0, 1, 50}) {
+      std::string data(80, ' ');
+      const auto put = [&data](auto number) { data += accepted_files::vtk::number_bytes(number, false); };
+      put(std::uint32_t{12});
+      for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 12; ++j) {
+          put(i == 7 && j == 8 ? odd : static_cast<float>(j < 3 ? 0 : (i + j) % 4));
+        }
+        put(static_cast<std::uint16_t>(odd == 0 ? i / 8 : 0));
+      }
+      all.push_back({"STL: binary", trismooth::stl_codec, data + std::string(more, '\0')});
+    }
+  }
 }
 
 std::vector<Sample> samples() {
@@ -220,6 +237,14 @@ std::vector<Sample> samples() {
     const trismooth::FileFormat format = accepted_files::format_of(file);
     if (format != trismooth::FileFormat::vtu && format != trismooth::FileFormat::vtp) {
       all.push_back({file.name, test_support::one_file_codec(format), file.bytes});
+    }
+    if (file.name == "off_big_endian" || file.name == "off_little_endian") {
+      // The second number of the fifth vertex, behind the keyword's line and the counts.
+      std::string infinite = file.bytes;
+      const bool is_big_endian = file.name == "off_big_endian";
+      infinite.replace(11 + 12 + 4 * 12 + 4, 4,
+                       accepted_files::vtk::number_bytes(std::numeric_limits<float>::infinity(), is_big_endian));
+      all.push_back({file.name + ", infinite", trismooth::off_codec, infinite});
     }
   }
   return all;

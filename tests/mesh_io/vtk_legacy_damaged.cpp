@@ -1,7 +1,10 @@
 // Files that are cut, changed or wrong: each is refused with the place and the reason, or read whole.
 
+#include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 
+#include "byte_files.h"
+#include "support/sanitized.h"
 #include "vtk_legacy_files.h"
 
 namespace vtk_legacy_damaged_test {
@@ -177,6 +180,31 @@ TEST_CASE("legacy VTK: faults in binary files are reported with their byte offse
   bad.replace(good.find("POINTS 9"), 8, "POINTS 90000000");
   CHECK(error_of(bad).find("declares 270000000 coordinates, but the rest of the file has room for") !=
         std::string::npos);
+}
+
+TEST_CASE("legacy VTK: a keyword in place of any token never does more than cause an error") {
+  const bool with_offsets = GENERATE(false, true);
+  const bool poly_data = GENERATE(false, true);
+  Builder file = poly_data ? poly_data_file(false, with_offsets) : grid_file(false, with_offsets);
+  file.text("POINT_DATA 9\n");
+  add_attributes(file, 9, false, "p_");
+  const std::string& good = file.bytes();
+  std::size_t end = 0;
+  for (std::size_t begin = 0; begin < good.size(); begin = good.find_first_not_of(" \n", end)) {
+    end = std::min(good.find_first_of(" \n", begin), good.size());
+    for (const std::string token : {"nan", "double", "bit", "string", "variant", "METADATA", "FIELD", "CELL_DATA"}) {
+      if (is_sanitized && begin % 3 != token.size() % 3) {
+        continue;
+      }
+      std::string bytes = good;
+      bytes.replace(begin, end - begin, token);
+      INFO(token << " at byte " << begin);
+      try {
+        CHECK(byte_files::is_valid(trismooth::vtk_legacy_codec.read("hostile.vtk", bytes)));
+      } catch (const ReadError&) {
+      }
+    }
+  }
 }
 
 }  // namespace vtk_legacy_damaged_test

@@ -43,6 +43,12 @@ TEST_CASE("a sweep is drawn with its number, its moves and the time") {
   scene.now += 200ms;
   scene.bar.sweep_done({13, 9, 1, 0.1});
   CHECK(scene.drawn() == erased + "smoothing: sweep 13 of at most 1000, 1 vertex moved, 0.4 s");
+  // Ten times a second at most.
+  scene.now += 99ms;
+  scene.bar.sweep_done({14, 9, 1, 0.1});
+  CHECK(scene.drawn().empty());
+  scene.bar.erase();
+  CHECK(scene.drawn() == erased);
 }
 
 TEST_CASE("without a sweep limit the number of the sweep stands alone") {

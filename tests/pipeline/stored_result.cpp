@@ -15,6 +15,7 @@
 
 #include "catch.h"
 #include "support/naive_smoothing.h"
+#include "support/quadratic_samples.h"
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 #include "support/triangle_document.h"
@@ -97,6 +98,88 @@ PipelineOptions with(Method method, bool guard = true) {
   options.smoothing.guard = guard;
   options.smoothing.max_sweeps = 40;
   return options;
+}
+
+TEST_CASE("straight triangles of six nodes are smoothed as those of their corners are, counted and judged") {
+  for (const Method method : {Method::smart, Method::mean_ratio}) {
+    const Mesh mesh = test_meshes::jittered_grid(17, 13, 0.35, 7);
+    const Smoothed plain = smoothed(triangle_document(mesh, 2.5), with(method));
+    const Smoothed straight = smoothed(quadratic(mesh, 0, 1), with(method));
+    const std::size_t numbers = 3 * mesh.points.size();
+    CHECK(same_bits(std::span(plain.after.points).first(numbers), std::span(straight.after.points).first(numbers)));
+    CHECK(straight.result.smoothing->moved_vertices == plain.result.smoothing->moved_vertices);
+    CHECK(straight.result.smoothing->moved_vertices > 100);
+    CHECK(straight.result.input.free_vertices == plain.result.input.free_vertices);
+    CHECK(straight.result.input.fixed_vertices == plain.result.input.fixed_vertices);
+    CHECK(straight.result.input.held.unused == 0);
+    CHECK(straight.result.input.held.other_cells == 0);
+    CHECK(straight.result.input.quadratic_triangles == std::ssize(mesh.triangles));
+    CHECK(straight.result.input.middle_nodes == std::ssize(straight.before.points) / 3 - mesh.vertex_count());
+    CHECK(straight.result.quadratic_after->invalid == 0);
+    CHECK(straight.result.quadratic_after->min_jacobian == Approx(1).epsilon(1e-9));
+    check_places(straight);
+  }
+}
+
+TEST_CASE("curved meshes never get worse: valid elements stay valid, by samples of the Jacobian") {
+  int lost_without_guard = 0;
+  std::int64_t put_back = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    CAPTURE(seed);
+    const Method method = std::array{Method::smart, Method::laplacian, Method::mean_ratio}[seed % 3];
+    const Mesh mesh = test_meshes::jittered_grid(11, 9, 0.3, seed);
+    const MeshDocument document = quadratic(mesh, 0.02 + 0.01 * static_cast<double>(seed % 12), seed);
+    const Smoothed guarded = smoothed(document, with(method));
+    const Smoothed loose = smoothed(document, with(method, false));
+    check_never_worse(guarded, mesh.triangles);
+    check_places(guarded);
+    CHECK(guarded.result.quadratic_after->invalid <= guarded.result.quadratic_before->invalid);
+    put_back += guarded.result.smoothing->reverted_vertices;
+    for (std::size_t c = 0; c < mesh.triangles.size(); ++c) {
+      const auto nodes = document.cells[c];
+      const auto at = [&](const MeshDocument& of, std::size_t node, std::size_t axis) {
+        return of.points[3 * static_cast<std::size_t>(nodes[node]) + axis];
+      };
+      const auto smallest = [&](const MeshDocument& of) {
+        return smallest_jacobian_sample([&](std::size_t node, std::size_t axis) { return at(of, node, axis); });
+      };
+      // Well above what the smallest value may be below these samples.
+      if (smallest(document) > 2e-4) {
+        lost_without_guard += smallest(loose.after) > 0 ? 0 : 1;
+        REQUIRE(smallest(guarded.after) > 0);
+      }
+      // A middle goes where its side's ends go, at the fraction of the side at which its foot was.
+      for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3;
+        double along = 0;
+        double length = 0;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const double side = at(document, b, axis) - at(document, a, axis);
+          along += side * (at(document, 3 + a, axis) - at(document, a, axis));
+          length += side * side;
+        }
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const auto move = [&](std::size_t node) { return at(guarded.after, node, axis) - at(document, node, axis); };
+          REQUIRE(std::abs(move(3 + a) - (move(a) + along / length * (move(b) - move(a)))) <= 1e-15);
+          REQUIRE((move(a) != 0 || move(b) != 0 || move(3 + a) == 0));
+        }
+      }
+    }
+  }
+  CHECK(lost_without_guard > 0);
+  CHECK(put_back > 0);
+}
+
+TEST_CASE("curved results are the same for every number of threads") {
+  const MeshDocument document = quadratic(test_meshes::jittered_grid(120, 90, 0.3, 5), 0.08, 5);
+  PipelineOptions options = with(Method::smart);
+  options.smoothing.threads = 1;
+  const Smoothed one = smoothed(document, options);
+  options.smoothing.threads = 4;
+  const Smoothed four = smoothed(document, options);
+  CHECK(same_bits(one.after.points, four.after.points));
+  CHECK(one.result.smoothing->guard_rounds == four.result.smoothing->guard_rounds);
+  CHECK(one.result.unguarded_hash == four.result.unguarded_hash);
 }
 
 TEST_CASE("a middle that is named stays with its side's ends") {

@@ -30,13 +30,15 @@ using trismooth::SmoothingResult;
 using trismooth::StopReason;
 using trismooth::Storage;
 
-/// Method, form and precision number `index` of 16.
-inline constexpr std::uint64_t combinations = 16;
+inline constexpr auto all_methods = trismooth::values_of<Method>();
+/// Of methods, two forms and two precisions.
+inline constexpr std::uint64_t combinations = 4 * all_methods.size();
+/// Method, form and precision number `index`.
 inline SmoothingOptions combination(std::uint64_t index) {
   SmoothingOptions options;
-  options.method = static_cast<Method>(index % 4);
-  options.form = static_cast<Form>(index / 4 % 2);
-  options.precision = static_cast<Precision>(index / 8 % 2);
+  options.method = all_methods[index % all_methods.size()];
+  options.form = static_cast<Form>(index / all_methods.size() % 2);
+  options.precision = static_cast<Precision>(index / (2 * all_methods.size()) % 2);
   options.threads = 1;
   options.layers = trismooth::Layers::smooth;  // what holds vertices is looked at as the connectivity says
   return options;

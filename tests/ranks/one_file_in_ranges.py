@@ -134,6 +134,11 @@ class OneFileInRanges(ranks_tool.RanksTest):
         self.write("uneven.off", "\n".join(lines))
         self.assert_by_ranges(self.check("uneven.off", 3), by_ranges=False)
 
+    def test_held_by_numbers(self):
+        self.write_off("mixed.off", self.mixed())
+        self.write("ids.txt", "3 17 200 40")
+        self.check("mixed.off", 3, "--fixed-ids", "ids.txt")
+
     def test_vtu(self):
         mesh = self.mixed()
         forms = [raw_vtu.Form(), raw_vtu.Form(wide=False, index="Int32"), raw_vtu.Form(big=True),

@@ -127,6 +127,10 @@ class PieceFiles(ranks_tool.RanksTest):
         self.assertIn("big_0.vtu: is a file of VTK XML (unstructured grid)",
                       self.run_over(2, "quality", "mixed.pvtp", expect=3).err)
 
+    def test_page(self):
+        report = self.report_over(3, "smooth", "big.pvtu", "out.pvtu", "--report", "page.html")
+        self.assertIn(report["coordinates_hash"].encode(), self.read("page.html"))
+
     def test_old_output_survives(self):
         self.run_over(2, "smooth", "big.pvtu", "out.pvtu", "--quiet")
         old = {name: self.read(name) for name in os.listdir(self.folder) if name.startswith("out")}

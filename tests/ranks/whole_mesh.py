@@ -75,15 +75,18 @@ class WholeMesh(ranks_tool.RanksTest):
         self.assertEqual(outcome.out.encode(), self.read("alone.off"))
 
     def test_arrays_of_single(self):
-        """Values at points and cells, names, types and roles come along; marks of copies do not."""
+        """Values at points and cells, names, types and roles come along, and annotations; marks of copies do not."""
         mesh = self.random_mesh(500)
         write_both(self, mesh)
-        self.run_over(3, "smooth", "big.pvtu", "out.vtk", "--single", "--quiet")
-        self.run_tool("smooth", "whole.vtu", "alone.vtk", "--quiet")
+        self.run_over(3, "smooth", "big.pvtu", "out.vtk", "--annotate", "--single", "--quiet")
+        self.run_tool("smooth", "whole.vtu", "alone.vtk", "--annotate", "--quiet")
         self.assertEqual(self.read("out.vtk"), self.read("alone.vtk"))
         self.assertIn(b"height", self.read("out.vtk"))
         self.assertIn(b"load", self.read("out.vtk"))
         self.assertNotIn(b"vtkGhostType", self.read("out.vtk"))
+        self.run_tool("quality", "whole.vtu", "--annotate", "alone.vtk", "--quiet")
+        self.run_over(3, "quality", "big.pvtu", "--annotate", "out.vtk", "--single", "--quiet")
+        self.assertEqual(self.read("out.vtk"), self.read("alone.vtk"))
 
     def test_losses_are_said(self):
         write_both(self, self.random_mesh(300))
@@ -119,6 +122,8 @@ class WholeMesh(ranks_tool.RanksTest):
                 with self.subTest(options=options, ranks=ranks):
                     report = self.report_over(ranks, "smooth", "big.pvtu", "out.pvtu", "--slide", *options)
                     self.assertEqual(without_run(report), without_run(whole))
+                    if ranks > 1:
+                        self.assertIn("rank 0 had the whole mesh", report["smoothing"]["backend_note"])
 
     def test_held_by_ids(self):
         write_both(self, self.random_mesh(300), gap=2)

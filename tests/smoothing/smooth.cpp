@@ -147,6 +147,28 @@ TEST_CASE("far from the origin the result is finite and not worse") {
   }
 }
 
+TEST_CASE("a translation that the coordinates can hold changes the result by rounding only, however far it is") {
+  const Mesh unit = test_meshes::jittered_grid(12, 12, 0.3, 1);
+  SmoothingOptions options;
+  options.method = Method::laplacian;
+  options.guard = false;
+  options.max_sweeps = 20;
+  // On a grid of 2^-20, so that the mesh 2^26 away is the same mesh.
+  std::vector<double> near;
+  std::vector<double> far;
+  for (const double x : unit.xy()) {
+    near.push_back(std::round(x * 0x1p20) * 0x1p-20);
+    far.push_back(near.back() + 0x1p26);
+  }
+  const std::vector<double> near_result = smoothed(with_coordinates(unit, near), options);
+  const std::vector<double> far_result = smoothed(with_coordinates(unit, far), options);
+  double largest_error = 0;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    largest_error = std::max(largest_error, std::abs(far_result[i] - 0x1p26 - near_result[i]));
+  }
+  CHECK(largest_error < 0x1p-26);  // coordinates there are 2^-26 apart
+}
+
 TEST_CASE("a plan follows a component that is mirrored between two calls, and back") {
   const Mesh grid = test_meshes::jittered_grid(10, 10, 0.35, 1);
   const Mesh mesh = test_meshes::together(grid, test_meshes::jittered_grid(9, 9, 0.35, 2), {5, 0});

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
+#include "support/quadratic_samples.h"
 #include "support/same_bits.h"
 #include "support/test_meshes.h"
 
@@ -64,29 +64,10 @@ CurvedMesh curved(const Mesh& mesh, double bend, std::uint64_t seed, bool bounda
   return result;
 }
 
-/// The smallest of many values of the Jacobian, from the shape functions; triangles are listed counter-clockwise.
 double smallest_sample(const CurvedMesh& mesh, const std::vector<double>& xy, std::size_t element) {
-  constexpr int steps = 20;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= steps; ++i) {
-    for (int j = 0; i + j <= steps; ++j) {
-      const double l1 = double(i) / steps;
-      const double l2 = double(j) / steps;
-      const double l0 = 1 - l1 - l2;
-      const std::array<double, 6> by_l1{1 - 4 * l0, 4 * l1 - 1, 0, 4 * (l0 - l1), 4 * l2, -4 * l2};
-      const std::array<double, 6> by_l2{1 - 4 * l0, 0, 4 * l2 - 1, -4 * l1, 4 * l1, 4 * (l0 - l2)};
-      double x1 = 0, y1 = 0, x2 = 0, y2 = 0;
-      for (std::size_t node = 0; node < 6; ++node) {
-        const auto v = static_cast<std::size_t>(mesh.nodes[6 * element + node]);
-        x1 += by_l1[node] * xy[2 * v];
-        y1 += by_l1[node] * xy[2 * v + 1];
-        x2 += by_l2[node] * xy[2 * v];
-        y2 += by_l2[node] * xy[2 * v + 1];
-      }
-      smallest = std::min(smallest, x1 * y2 - y1 * x2);
-    }
-  }
-  return smallest;
+  return smallest_jacobian_sample([&](std::size_t node, std::size_t axis) {
+    return xy[2 * static_cast<std::size_t>(mesh.nodes[6 * element + node]) + axis];
+  });
 }
 
 SmoothingOptions with(Method method, bool guard = true, int threads = 1) {

@@ -109,7 +109,7 @@ void check_against_reference(const Mesh& mesh, SmoothingOptions options) {
   }
 }
 
-constexpr Method methods[] = {Method::smart, Method::laplacian, Method::weighted, Method::mean_ratio};
+constexpr auto methods = trismooth::values_of<Method>();
 constexpr Form forms[] = {Form::swap, Form::in_place};
 constexpr Precision precisions[] = {Precision::double_precision, Precision::single_precision};
 
