@@ -36,6 +36,16 @@ has_gpu() {
   nvidia-smi --list-gpus >/dev/null 2>&1
 }
 
+# The option that has the CUDA part built where a GPU would use it: compiling it takes as long as all the rest. With
+# TRISMOOTH_CUDA=ON in the environment it is built wherever CMake finds nvcc.
+cuda_option() {
+  if has_gpu || [[ ${TRISMOOTH_CUDA:-} == ON ]]; then
+    echo "-UTRISMOOTH_CUDA"
+  else
+    echo "-DTRISMOOTH_CUDA=OFF"
+  fi
+}
+
 # GCC collects its garbage when its memory has grown by so much per cent beyond so many kilobytes: later than it would by
 # itself, which spares a tenth of its time.
 patient_garbage_collection() {

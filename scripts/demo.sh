@@ -6,8 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$project/scripts/install-deps.sh"
-# The CUDA part where a GPU would use it: compiling it takes as long as all the rest.
-configure "-DTRISMOOTH_CUDA=$(has_gpu && echo ON || echo OFF)"
+configure "$(cuda_option)"
 build_target trismooth_program
 
 cd "$project"

@@ -4,8 +4,9 @@
 #   scripts/test.sh
 #   scripts/test.sh -R never_worse
 #
-# Tests that need a GPU are built where there is one. Random tests take a part of their meshes, and tests that break the
-# program off at many moments take a part of these; TRISMOOTH_THOROUGH=1 has them take all. Where nothing has changed that
+# The CUDA part and the tests that need a GPU are built where there is one; with TRISMOOTH_CUDA=ON in the environment the
+# CUDA part is built wherever there is nvcc. Random tests take a part of their meshes, and tests that break the program
+# off at many moments take a part of these; TRISMOOTH_THOROUGH=1 has them take all. Where nothing has changed that
 # packages depend on, their tests are left out, unless TRISMOOTH_THOROUGH=1 or an argument asks for them.
 set -euo pipefail
 # shellcheck source=scripts/common.sh
@@ -16,8 +17,8 @@ SECONDS=0
 "$project/scripts/python.sh"
 # -U: as CMake finds it, whatever scripts/demo.sh has said.
 # shellcheck disable=SC2046 # several options
-configure -UTRISMOOTH_CUDA -DTRISMOOTH_BENCHMARKS=OFF "-DTRISMOOTH_CUDA_TESTS=$(has_gpu && echo ON || echo OFF)" \
-  $(python_options)
+configure "$(cuda_option)" -DTRISMOOTH_BENCHMARKS=OFF \
+  "-DTRISMOOTH_CUDA_TESTS=$(has_gpu && echo ON || echo OFF)" $(python_options)
 configured=$SECONDS
 build_target all
 built=$SECONDS
@@ -34,5 +35,8 @@ fi
 ctest --test-dir "$build" --output-on-failure -j2 "${left_out[@]}" "$@"
 if ((${#left_out[@]} > 0)); then
   echo "Skipped: the tests of packages and of what is installed: $packaging_left_out."
+fi
+if [[ $(cuda_option) == *=OFF ]]; then
+  echo "Skipped: the CUDA part, for want of a GPU; TRISMOOTH_CUDA=ON has it built and tested as far as that goes without one."
 fi
 echo "Set-up took $configured s, the build $((built - configured)) s, the tests $((SECONDS - built)) s."
