@@ -6,7 +6,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 "$project/scripts/install-deps.sh"
-configure "$(cuda_option)"
+# For one machine: the part that runs over the ranks of an MPI job is left out.
+configure "$(cuda_option)" -DTRISMOOTH_MPI=OFF -UTRISMOOTH_METIS
 build_target trismooth_program
 
 cd "$project"

@@ -15,9 +15,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 SECONDS=0
 "$project/scripts/install-deps.sh" --tests
 "$project/scripts/python.sh"
-# -U: as CMake finds it, whatever scripts/demo.sh has said.
+# -U: as CMake finds them, whatever scripts/demo.sh has said.
 # shellcheck disable=SC2046 # several options
-configure "$(cuda_option)" -DTRISMOOTH_BENCHMARKS=OFF \
+configure "$(cuda_option)" -UTRISMOOTH_MPI -UTRISMOOTH_METIS -DTRISMOOTH_BENCHMARKS=OFF \
   "-DTRISMOOTH_CUDA_TESTS=$(has_gpu && echo ON || echo OFF)" $(python_options)
 configured=$SECONDS
 build_target all
