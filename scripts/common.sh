@@ -59,7 +59,7 @@ configure() {
   (cd "$project" && cmake --preset release "-DTRISMOOTH_WERROR=$(warnings_as_errors)" \
     "-DCMAKE_CUDA_ARCHITECTURES=$(cuda_architectures)" --no-warn-unused-cli \
     "-DCMAKE_CXX_FLAGS=${CXXFLAGS:-} $(patient_garbage_collection)" \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "$@")
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "$@")
 }
 
 # The options that have the Python module built, where its environment is there.
