@@ -107,6 +107,12 @@ TEST_CASE("what breaks the rules of binary Medit is refused with the byte and th
   const std::size_t triangles = bytes.size() - 8 - 4 * 16;
   CHECK(contains(refusal_of_binary(with_stored_word(bytes, triangles + 4, 6)),
                  "row 1 of Triangles has a vertex number out of range; the file has 5 vertices, counted from 1"));
+  const std::string end = stored_word(54) + stored_word(0);
+  const std::string head = stored_word(1) + stored_word(2) + stored_word(3);
+  CHECK(contains(refusal_of_binary(head + stored_word(24) + stored_word(2) + stored_word(0) + end),
+                 "byte 16: expected the dimension and nothing else, got 8 bytes"));
+  CHECK(contains(refusal_of_binary(head + stored_word(20) + stored_word(2) + stored_word(4) + stored_word(28) + end),
+                 "byte 28: expected the number of Vertices, got 0 bytes"));
   CHECK(contains(refusal_of_binary(bytes.substr(0, bytes.size() - 1)), "it is cut off"));
   CHECK(contains(refusal_of_binary(bytes.substr(0, 12)), "it is cut off"));
   // Not binary, then: the careful reader of text says what it is not.

@@ -235,6 +235,8 @@ TEST_CASE("what MFEM meshes are not read is said with its reason") {
            {"MFEM mesh v1.4", "expected 'MFEM mesh v1.0' to 'v1.3' in the first line, got 'MFEM mesh v1.4'"}}) {
     CHECK(refusal_of(replaced(disc, "MFEM mesh v1.3", version)).find(reason) != std::string::npos);
   }
+  CHECK(refusal_of(replaced(disc, "\"inlet\" 1", "\"inlet 1")).find("expected the end of the name of a set") !=
+        std::string::npos);
   CHECK(refusal_of(replaced(disc, "mfem_mesh_end", "vertex_parents")).find("is a non-conforming mesh") !=
         std::string::npos);
 }

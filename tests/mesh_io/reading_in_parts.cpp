@@ -1,6 +1,7 @@
 // Text and binary files read in parts of any size, by any number of threads: the same document, notes and messages.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "byte_files.h"
 #include "catch.h"
 #include "part_samples.h"
 #include "support/accepted_files.h"
@@ -77,6 +79,22 @@ void add_off_samples(std::vector<Sample>& all) {
   add("a degree beyond the file", "OFF", "", {"3 0 1 2", "99999 0 1", "3 4 3 5", "5 0 1 2 3 4"});
   add("an infinite colour", "OFF", " 1 2 inf", mixed);
   add("two colour numbers", "OFF", " 1 2", mixed);
+}
+
+/// In MeshLab's order of fields.
+void add_binary_off_samples(std::vector<Sample>& all) {
+  for (const float last : {1.0F, std::numeric_limits<float>::infinity()}) {
+    std::string data = "NCOFF BINARY\n";
+    const auto put = [&](auto number) { data += byte_files::number_bytes(number, std::endian::big); };
+    std::ranges::for_each(std::array{9, 1, 0}, put);
+    for (int i = 0; i < 9; ++i) {
+      for (int j = 0; j < 9; ++j) {
+        put(i == 8 && j == 0 ? last : static_cast<float>(10 * i + j));
+      }
+    }
+    std::ranges::for_each(std::array{3, 0, 1, 2, 0}, put);
+    all.push_back({"OFF: binary, " + std::to_string(last), trismooth::off_codec, data});
+  }
 }
 
 void add_ply_samples(std::vector<Sample>& all) {
@@ -223,6 +241,7 @@ std::vector<Sample> samples() {
   add_obj("comments alone", "# nothing\n\n");
   add_obj("nothing", "");
   add_off_samples(all);
+  add_binary_off_samples(all);
   add_ply_samples(all);
   add_stl_samples(all);
   part_samples::add_msh_samples(all);

@@ -60,6 +60,11 @@ TEST_CASE("legacy VTK: integers have the width that their type says") {
   }
 }
 
+TEST_CASE("legacy VTK: a line of one point is refused") {
+  CHECK(error_of("# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
+                 "LINES 1 2\n1 0\n") == ":8: cell 0 of LINES of type 4 has 1 vertex; expected 2 or more");
+}
+
 TEST_CASE("legacy VTK: malformed files are refused with the place and the reason") {
   const std::string good = grid_file(false, false)
                                .text(
@@ -113,6 +118,10 @@ TEST_CASE("legacy VTK: malformed files are refused with the place and the reason
       {"SCALARS s int 1", "SCALARS s int 400", ":13: declares 3600 values of point array 's', but the rest"},
       {"SCALARS s int 1\nLOOKUP_TABLE default", "FIELD f 1\ns 1 8 int", ":13: point array 's' has 8 rows; expected 9"},
       {"SCALARS s int 1\nLOOKUP_TABLE default", "FIELD f 2\ns 1 9 int", ":15: expected the name of an array"},
+      {"SCALARS s int 1\nLOOKUP_TABLE default", "FIELD f 1\ns 1 9 string",
+       ":15: expected values of point array 's', got the end of the file"},
+      {"SCALARS s int 1\nLOOKUP_TABLE default", "LOOKUP_TABLE t 9223372036854775807",
+       ":12: declares 9223372036854775807 x 4 colours, more than any file holds"},
       {"LOOKUP_TABLE default", "LOOKUP", ":13: expected values of point array 's' (a whole number"},
       {"7 8 9\n", "7 8\n", ":15: expected values of point array 's', got the end of the file"},
       {"7 8 9\n", "7 8 9 10\n", ":14: unknown keyword '10'"},

@@ -51,6 +51,17 @@ TEST_CASE("legacy VTK: every kind of attribute comes out as VTK reads it") {
   check_same(document, read_with_vtk(temporary.path()));
 }
 
+TEST_CASE("legacy VTK: arrays of variants are passed over, and a note says so") {
+  const TemporaryFile file(
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n"
+      "3 0 1 2\nPOINT_DATA 3\nFIELD f 2\ns 1 3 variant\n5 1 5 2 5 3\nu 1 3 int\n7 8 9\n",
+      ".vtk");
+  const MeshDocument document = read_mesh(file.path());
+  CHECK(document.point_arrays.size() == 1);
+  CHECK(document.notes ==
+        std::vector<std::string>{"point array 's' holds variants: it is kept in this file only, not in other formats"});
+}
+
 TEST_CASE("legacy VTK: what VTK's writers wrote is read as it was") {
   const bool binary = GENERATE(false, true);
   const int version =

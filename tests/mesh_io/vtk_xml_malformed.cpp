@@ -291,4 +291,25 @@ TEST_CASE("VTU and VTP give the same document in parts of any size, and the same
   }
 }
 
+TEST_CASE("VTU and VTP are written in the same bytes by any number of threads") {
+  const Silence silence;
+  const VtkXmlKind kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
+  for (const VtkXmlEncoding& encoding : some_encodings()) {
+    if (is_sanitized && encoding.compressor == VtkXmlCompressor::lzma) {
+      continue;
+    }
+    INFO(to_string(encoding));
+    const TemporaryPath file(extension_of(kind));
+    write_with_vtk(*make_grid(kind, 80), file.path(), encoding);  // two blocks and more of 32 KiB
+    MeshDocument document = trismooth::read_mesh(file.path());
+    document.points[0] += 0.125;
+    const TemporaryPath by_one(extension_of(kind));
+    const TemporaryPath by_three(extension_of(kind));
+    trismooth::write_mesh(by_one.path(), document, {}, 1);
+    trismooth::write_mesh(by_three.path(), document, {}, 3);
+    CHECK(read_bytes(by_one.path()) == read_bytes(by_three.path()));
+    CHECK(trismooth::read_mesh(by_three.path(), 3).points == document.points);
+  }
+}
+
 }  // namespace vtk_xml_malformed_test
