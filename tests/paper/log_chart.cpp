@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <expat.h>
-
 #include "catch.h"
+#include "support/parsed_page.h"
 
+using pages::Element;
 using trismooth::Spread;
 using trismooth::experiments::ChartPanel;
 using trismooth::experiments::ChartPoint;
@@ -23,18 +21,6 @@ using trismooth::experiments::LogChart;
 using trismooth::experiments::Marker;
 
 namespace {
-
-struct Element {
-  std::string name;
-  std::map<std::string, std::string> attributes;
-  std::string text;  ///< that of children, too
-
-  std::string attribute(const std::string& key) const {
-    const auto found = attributes.find(key);
-    return found == attributes.end() ? "" : found->second;
-  }
-  double number(const std::string& key) const { return std::stod(attribute(key)); }
-};
 
 /// The numbers of a path, of a list of points or of a transformation.
 std::vector<double> numbers(std::string text) {
@@ -53,16 +39,7 @@ struct Place {
   double y = 0;
 };
 
-struct Picture {
-  std::string error;  ///< empty where the text is well-formed
-  std::vector<Element> elements;
-  std::vector<std::size_t> open;
-
-  std::vector<Element> all(const std::string& name) const {
-    std::vector<Element> found;
-    std::ranges::copy_if(elements, std::back_inserter(found), [&](const Element& e) { return e.name == name; });
-    return found;
-  }
+struct Picture : pages::Parsed {
   /// The markers of points: those with a tooltip.
   std::vector<Element> markers() const {
     std::vector<Element> found = all("path");
@@ -88,38 +65,10 @@ struct Picture {
     std::erase_if(found, [](const Element& e) { return e.attribute("fill") != "none"; });
     return found;
   }
-  auto texts(const std::string& text) const {
-    return std::ranges::count_if(elements, [&](const Element& e) { return e.name == "text" && e.text == text; });
+  auto texts(const std::string& words) const {
+    return std::ranges::count_if(elements, [&](const Element& e) { return e.name == "text" && e.text == words; });
   }
 };
-
-Picture parse(const std::string& xml) {
-  Picture picture;
-  const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(XML_ParserCreate("UTF-8"),
-                                                                                             &XML_ParserFree);
-  XML_SetUserData(parser.get(), &picture);
-  XML_SetElementHandler(
-      parser.get(),
-      [](void* data, const XML_Char* name, const XML_Char** attributes) {
-        auto& found = *static_cast<Picture*>(data);
-        found.open.push_back(found.elements.size());
-        found.elements.push_back({name, {}, ""});
-        for (; *attributes != nullptr; attributes += 2) {
-          found.elements.back().attributes[attributes[0]] = attributes[1];
-        }
-      },
-      [](void* data, const XML_Char*) { static_cast<Picture*>(data)->open.pop_back(); });
-  XML_SetCharacterDataHandler(parser.get(), [](void* data, const XML_Char* text, int length) {
-    auto& found = *static_cast<Picture*>(data);
-    for (const std::size_t element : found.open) {
-      found.elements[element].text.append(text, static_cast<std::size_t>(length));
-    }
-  });
-  if (XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), XML_TRUE) == XML_STATUS_ERROR) {
-    picture.error = XML_ErrorString(XML_GetErrorCode(parser.get()));
-  }
-  return picture;
-}
 
 ChartPoint exact(double x, double y) {
   return {x, Spread(y, y, y)};
@@ -135,7 +84,7 @@ LogChart chart(const std::vector<ChartPanel>& panels) {
 
 Picture draw(const LogChart& chart) {
   const std::string svg = log_chart_svg(chart);
-  Picture picture = parse(svg);
+  Picture picture{pages::parse(svg)};
   REQUIRE(picture.error.empty());
   for (const Element& element : picture.elements) {
     for (const auto& [key, value] : element.attributes) {
