@@ -10,17 +10,13 @@
 #include "trismooth/smoothing/result.h"
 
 #include "catch.h"
+#include "support/scratch_folder.h"
 
 namespace trismooth::enum_text_test {
 
 template <class Enum>
 std::string complaint(std::string_view text) {
-  try {
-    static_cast<void>(parse_enum<Enum>(text));
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return message_of<std::invalid_argument>([&] { static_cast<void>(parse_enum<Enum>(text)); });
 }
 
 TEMPLATE_TEST_CASE("every text reads back as its value, and no two are alike", "", trismooth::Method, trismooth::Form,

@@ -2,10 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -17,11 +15,13 @@
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
+#include "support/refusal.h"
 #include "support/test_meshes.h"
 
 namespace trismooth::index_view_test {
 
 using test_meshes::Mesh;
+using test_support::refusal;
 
 static_assert(std::is_convertible_v<const std::vector<std::int32_t>&, IndexView>);
 // Temporaries that own their numbers are gone before anybody can look.
@@ -75,17 +75,6 @@ void check_type(const Mesh& mesh) {
   CHECK(seen(trismooth::triangle_rows(rows)) == mesh.triangles);
   using Map = Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, 3, Eigen::RowMajor>>;
   CHECK(seen(Map(numbers.data(), static_cast<Eigen::Index>(triples.size()), 3)) == mesh.triangles);
-}
-
-std::string refusal(const std::function<void()>& function) {
-  try {
-    function();
-  } catch (const std::invalid_argument& error) {
-    return std::string("argument: ") + error.what();
-  } catch (const trismooth::MeshError& error) {
-    return std::string("mesh: ") + error.what();
-  }
-  return "none";
 }
 
 TEST_CASE("vertex numbers of every type, in every form of memory, are the same triangles") {

@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,11 +18,13 @@
 
 #include "catch.h"
 #include "support/fake_backend.h"
+#include "support/refusal.h"
 #include "support/test_meshes.h"
 
 namespace trismooth::point_view_test {
 
 using test_meshes::Mesh;
+using test_support::refusal;
 
 template <class Points>
 concept Smoothable = requires(Points&& points, const std::vector<std::int32_t>& triangles) {
@@ -212,17 +213,6 @@ std::vector<Form> double_forms() {
 
 Mesh sample(double jitter = 0.45) {
   return test_meshes::shuffled(test_meshes::jittered_grid(9, 8, jitter, 3), 5);
-}
-
-std::string refusal(const std::function<void()>& function) {
-  try {
-    function();
-  } catch (const std::invalid_argument& error) {
-    return std::string("argument: ") + error.what();
-  } catch (const MeshError& error) {
-    return std::string("mesh: ") + error.what();
-  }
-  return "none";
 }
 
 TEST_CASE("points of double in every form of memory are smoothed to the same bits, and all else there is left alone") {

@@ -8,6 +8,7 @@
 #include "trismooth/quality/metrics.h"
 
 #include "catch.h"
+#include "support/scratch_folder.h"
 
 namespace trismooth::gates_test {
 
@@ -29,13 +30,8 @@ bool passes(const std::string& gate, const QualityReport& report) {
   return check_gate(parse_gate(gate), report).passed;
 }
 
-std::string message_of(const std::string& gate) {
-  try {
-    parse_gate(gate);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+std::string refusal_of(const std::string& gate) {
+  return message_of<std::invalid_argument>([&] { parse_gate(gate); });
 }
 
 TEST_CASE("a gate is a name, a comparison and a number, with or without blanks") {
@@ -74,14 +70,14 @@ TEST_CASE("text that is no gate is refused with what is expected") {
     CAPTURE(text);
     CHECK_THROWS_AS(parse_gate(text), std::invalid_argument);
   }
-  CHECK(message_of("min_shape=0.3").find(">=, <=, >, <, ==") != std::string::npos);
-  CHECK(message_of("min_shape").find("NAME>=VALUE") != std::string::npos);
+  CHECK(refusal_of("min_shape=0.3").find(">=, <=, >, <, ==") != std::string::npos);
+  CHECK(refusal_of("min_shape").find("NAME>=VALUE") != std::string::npos);
 }
 
 TEST_CASE("an unknown name is answered with the valid ones") {
   for (const char* name : {"shape", "min_", "min_shapes", "median_shape", "Min_shape", "acceptable"}) {
     CAPTURE(name);
-    const std::string message = message_of(std::string(name) + ">=1");
+    const std::string message = refusal_of(std::string(name) + ">=1");
     CHECK(message.find("'" + std::string(name) + "'") != std::string::npos);
     for (const auto& metric : trismooth::all_metrics()) {
       CHECK(message.find(std::string(metric.name)) != std::string::npos);

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +14,12 @@
 #include "trismooth/base/errors.h"
 
 #include "catch.h"
+#include "support/refusal.h"
 #include "support/test_meshes.h"
 
 namespace trismooth::quality_test {
+
+using test_support::refusal;
 
 template <class Points, class Triangles>
 concept HasQuality = requires(Points&& points, Triangles&& triangles) {
@@ -62,17 +63,6 @@ void require_equal(const QualityReport& a, const QualityReport& b) {
     REQUIRE(a.worst[i].triangle == b.worst[i].triangle);
     REQUIRE(a.worst[i].shape == b.worst[i].shape);
   }
-}
-
-std::string refusal(const std::function<void()>& function) {
-  try {
-    function();
-  } catch (const std::invalid_argument& error) {
-    return std::string("argument: ") + error.what();
-  } catch (const trismooth::MeshError& error) {
-    return std::string("mesh: ") + error.what();
-  }
-  return "none";
 }
 
 TEST_CASE("the quality of arrays is that of their triangles, and the arrays stay as they are") {

@@ -10,6 +10,7 @@
 #include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
+#include "support/scratch_folder.h"
 #include "support/test_meshes.h"
 
 using trismooth::Constraints;
@@ -59,12 +60,7 @@ Flags fixed_in(const test_meshes::Mesh& mesh, const Constraints& constraints) {
 }
 
 std::string complaint(const Constraints& constraints) {
-  try {
-    fixed_in(star(), constraints);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return message_of<std::invalid_argument>([&] { fixed_in(star(), constraints); });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "trismooth/base/machine/worker_threads.h"
 
 #include "catch.h"
+#include "support/scratch_folder.h"
 
 using trismooth::Execution;
 using trismooth::Form;
@@ -26,12 +27,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::string complaint(const std::function<void(SmoothingOptions&)>& change) {
   SmoothingOptions options;
   change(options);
-  try {
-    options.validate();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
+  return message_of<std::invalid_argument>([&] { options.validate(); });
 }
 
 void check_tolerance(double value, bool valid) {

@@ -15,6 +15,7 @@
 
 #include "catch.h"
 #include "support/distorted_meshes.h"
+#include "support/scratch_folder.h"
 #include "support/sliding_meshes.h"
 #include "support/test_meshes.h"
 
@@ -30,12 +31,7 @@ Mesh square_with_uneven_sides(std::uint64_t seed) {
 
 std::string complaint(const Constraints& constraints) {
   const Mesh mesh = square_with_uneven_sides(1);
-  try {
-    smoothed(mesh, constraints);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return {};
+  return message_of<std::invalid_argument>([&] { smoothed(mesh, constraints); });
 }
 
 /// The largest of | |p| - radius | over points and middles of the edges of a circle of vertices.
