@@ -38,7 +38,7 @@ template <class Position>
 constexpr TRISMOOTH_HOST_DEVICE auto points_of(const Triangle& corners, const Position& position) {
   return TrianglePoints<decltype(position(0).x)>{position(corners[0]), position(corners[1]), position(corners[2])};
 }
-/// The same where points[v] is vertex v.
+/// The points of these corners, where points[v] is vertex v.
 template <class Points>
 requires requires(const Points& points) {
   points[0];

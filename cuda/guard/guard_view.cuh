@@ -124,8 +124,8 @@ __device__ inline Quotients quotients(const JudgedElement& element) {
 }
 
 /// Calls visit(element) for the elements around the vertex whose corners have numbers from `lowest` on, of which v is
-/// one. Each corner is looked at once, but for one. (A walk of its own beside for_elements_around(): many corners do not
-/// count, and a device need not wait for where these are.)
+/// one. Each corner is looked at once, but for one. (A walk of its own beside for_elements_around(): many corners do
+/// not count, and a device need not wait for where these are.)
 template <class View, class Visit>
 __device__ void for_elements(const View& view, const Positions<View>& positions, std::int32_t v, std::int32_t lowest,
                              Visit& visit) {

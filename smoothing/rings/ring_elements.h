@@ -57,7 +57,7 @@ constexpr TRISMOOTH_HOST_DEVICE void for_elements_around(const Ring& ring, const
   }
 }
 
-/// The same where what is to be known of neighbour i is ring[i]: its number, or its position.
+/// for_elements_around() where what is to be known of neighbour i is ring[i]: its number, or its position.
 template <class Ring, class Visit>
 constexpr TRISMOOTH_HOST_DEVICE void for_elements_around(const Ring& ring, const Visit& visit) {
   for_elements_around(

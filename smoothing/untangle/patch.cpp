@@ -1,8 +1,8 @@
 #include "trismooth/smoothing/untangle/patch.h"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
+
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -41,8 +41,7 @@ Patch PatchCutter::cut(std::span<const std::int32_t> free) {
         patch.triangles.push_back({v, b, c});
         continue;
       }
-      const std::array<std::int32_t, 3> turned =
-          b < c ? std::array<std::int32_t, 3>{b, c, v} : std::array<std::int32_t, 3>{c, v, b};
+      const Triangle turned = canonical_corners({v, b, c}, false);
       const std::int32_t first = patch.offsets[turned[0]];
       const std::int32_t last = patch.offsets[turned[0] + 1];
       for (std::int32_t j = first; j < last; ++j) {
@@ -55,9 +54,7 @@ Patch PatchCutter::cut(std::span<const std::int32_t> free) {
   }
   // From the corner on that the input numbers lowest, as everywhere: rounding gives slivers a sign that depends on it.
   for (Triangle& triangle : patch.triangles) {
-    const auto first =
-        std::ranges::min_element(triangle, {}, [&](std::int32_t v) { return rings_.input(patch.vertices[v]); });
-    std::rotate(triangle.begin(), first, triangle.end());
+    triangle = from_smallest(triangle, [&](std::int32_t v) { return rings_.input(patch.vertices[v]); });
   }
   for (const std::int32_t vertex : patch.vertices) {
     number_[vertex] = -1;

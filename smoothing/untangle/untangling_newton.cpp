@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trismooth/base/machine/ordered_sum.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/untangle/conjugate_gradients.h"
 #include "trismooth/smoothing/untangle/regularised_energy.h"
 
@@ -84,8 +85,7 @@ class RegularisedMinimiser {
   void find_target_areas() {
     targets_.resize(patch_.triangles.size());
     for (std::size_t t = 0; t < targets_.size(); ++t) {
-      const auto [a, b, c] = patch_.triangles[t];
-      targets_[t] = 0.5 * std::abs(cross(points_[b] - points_[a], points_[c] - points_[a]));
+      targets_[t] = 0.5 * std::abs(doubled_area(points_of(patch_.triangles[t], points_)));
     }
     std::vector<double> sums(points_.size());
     std::vector<double> counts(points_.size());
