@@ -208,10 +208,13 @@ TEST_CASE("legacy VTK: a keyword in place of any token never does more than caus
       std::string bytes = good;
       bytes.replace(begin, end - begin, token);
       INFO(token << " at byte " << begin);
+      std::optional<trismooth::MeshDocument> document;
       try {
-        CHECK(byte_files::is_valid(trismooth::vtk_legacy_codec.read("hostile.vtk", bytes)));
+        document = trismooth::vtk_legacy_codec.read("hostile.vtk", bytes);
       } catch (const ReadError&) {
+        continue;
       }
+      CHECK(byte_files::is_valid(*document));
     }
   }
 }
