@@ -72,6 +72,8 @@ class Judge {
       }
     } else if (is_bookkeeping_name(name)) {
       leave_out("by its name it is for another purpose");
+    } else if (values_.count() == values_.triangles) {
+      // Numbers of triangles that share no side.
     } else if (!values_.are_whole()) {
       leave_out("it does not hold whole numbers");
     } else if (!is_few(values_.count(), values_.triangles)) {

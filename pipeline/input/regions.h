@@ -31,8 +31,9 @@ struct Regions {
 ///
 /// Of the document's arrays every one of one component and two values or more counts that
 /// - has a name under which programs write regions (region_names.h) and changes across at most half of the inner edges,
-/// - or holds whole numbers or texts, few different ones (10, or one for 8 triangles), changes across at most a third
-///   of the inner edges and has no name of bookkeeping or of this program (annotation_names.h). A note names it.
+/// - or holds whole numbers or texts, few different ones (10, or one for 8 triangles; fewer than triangles), changes
+///   across at most a third of the inner edges and has no name of bookkeeping or of this program (annotation_names.h).
+///   A note names it.
 /// A note tells of an array that counts by its name but changes across more edges, and of those that fail at one of the
 /// other conditions alone. Where no array counts, one of a known name that has the same value everywhere is named.
 ///

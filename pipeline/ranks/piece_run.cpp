@@ -288,7 +288,8 @@ class PieceMesh final : public StagedMesh {
     }
     ranks_->sum(reasons);
     if (cells_.cells == 0) {
-      run_.note("the pieces hold no cells: nothing to smooth");
+      run_.note(names_parallel_file(options_.input) ? "the pieces hold no cells: nothing to smooth"
+                                                    : "the file holds no cells: nothing to smooth");
     }
     std::ranges::move(notes_of_other_cells(cells_.others, cells_.repeating, cells_.first_repeating),
                       std::back_inserter(result.notes));
@@ -299,17 +300,18 @@ class PieceMesh final : public StagedMesh {
       result.input.point_sets.push_back({set.name, topology_->count_vertices(set.flags), false, true});
     }
     const RankComponents components = count_components(*topology_, reversed_);
-    summarise_mesh(run_, {.vertices = ranks_->sum(vertices),
+    const MeshFacts facts{.vertices = ranks_->sum(vertices),
                           .triangles = topology_->triangle_count(),
                           .other_cells = cells_.others,
                           .components = components.count,
                           .reoriented_triangles = components.reoriented_triangles,
                           .reasons = reasons,
                           .layers = layers_,
-                          .regions = regions_});
-    if (are_apart(result.input)) {
+                          .regions = regions_};
+    if (are_apart(facts)) {
       throw NeedsWholeMesh{"triangles that are all apart"};
     }
+    summarise_mesh(run_, facts);
   }
 
   SmoothingResult smooth_points() {

@@ -40,6 +40,10 @@ std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts)
 
 }  // namespace
 
+bool are_apart(const MeshFacts& facts) {
+  return facts.reasons[0] == 0 && facts.triangles > 1 && facts.components == facts.triangles;
+}
+
 void summarise_mesh(RunContext& run, const MeshFacts& facts) {
   PipelineResult& result = run.result;
   InputSummary& input = result.input;
@@ -62,13 +66,6 @@ void summarise_mesh(RunContext& run, const MeshFacts& facts) {
   if (std::string note = note_of_layers(facts.layers); !note.empty()) {
     run.note(std::move(note));
   }
-  if (run.options.fixed_ids && input.fixed_ids_vertices == 0) {
-    run.warn(run.options.fixed_ids->string() + ": names no vertices, so it holds none");
-  }
-}
-
-bool are_apart(const InputSummary& input) {
-  return input.free_vertices == 0 && input.triangles > 1 && input.components == input.triangles;
 }
 
 }  // namespace trismooth

@@ -7,7 +7,6 @@
 
 namespace trismooth {
 
-struct InputSummary;
 struct Regions;
 struct RunContext;
 
@@ -23,11 +22,11 @@ struct MeshFacts {
   const Regions& regions;
 };
 
-/// Puts them into the result, with what is to be said of regions, of vertices where triangles meet irregularly, of
-/// layers and of a file of vertices to hold that names none; how many that names is in the result.
-void summarise_mesh(RunContext& run, const MeshFacts& facts);
-
 /// Whether no two triangles share a side, so that nothing is free: something has gone wrong where the mesh was made.
-bool are_apart(const InputSummary& input);
+bool are_apart(const MeshFacts& facts);
+
+/// Puts them into the result, with what is to be said of regions, of vertices where triangles meet irregularly and of
+/// layers.
+void summarise_mesh(RunContext& run, const MeshFacts& facts);
 
 }  // namespace trismooth

@@ -54,6 +54,7 @@ void StagedRun::check_and_smooth() {
   PipelineTimings& timings = run_.result.timings_ms;
   timed(Stage::topology, timings.topology, [this] { mesh_.connect(); });
   timed(Stage::check_before, timings.check_before, [this] { check_before(); });
+  warn_of_input(run_);
   if (run_.options.output) {
     warn_before_smoothing(mesh_);
     begin(Stage::smooth);

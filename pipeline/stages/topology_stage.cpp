@@ -329,15 +329,16 @@ void connect_mesh(RunState& run) {
   input.quadratic_triangles = std::ssize(mesh.quadratics);
   input.middle_nodes = std::ssize(mesh.middles);
   result.topology = run.found.found_by;
-  summarise_mesh(run, {.vertices = input.vertices,
-                       .triangles = std::ssize(mesh.triangles),
-                       .other_cells = mesh.other_cells,
-                       .components = run.found.components,
-                       .reoriented_triangles = run.found.reoriented_triangles,
-                       .reasons = count_vertices(run),
-                       .layers = run.found.layers,
-                       .regions = run.regions});
-  if (are_apart(input)) {
+  const MeshFacts facts{.vertices = input.vertices,
+                        .triangles = std::ssize(mesh.triangles),
+                        .other_cells = mesh.other_cells,
+                        .components = run.found.components,
+                        .reoriented_triangles = run.found.reoriented_triangles,
+                        .reasons = count_vertices(run),
+                        .layers = run.found.layers,
+                        .regions = run.regions};
+  summarise_mesh(run, facts);
+  if (are_apart(facts)) {
     run.note(describe_apart_triangles(mesh.points, mesh.triangles));
   }
   input.fixed_array = named.array;

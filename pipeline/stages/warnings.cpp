@@ -137,6 +137,12 @@ std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& 
       may_slide_together ? "--slide-coincident has those in the same place slide together, " : "");
 }
 
+void warn_of_input(RunContext& run) {
+  if (run.options.fixed_ids && run.result.input.fixed_ids_vertices == 0) {
+    run.warn(run.options.fixed_ids->string() + ": names no vertices, so it holds none");
+  }
+}
+
 void warn_before_smoothing(StagedMesh& mesh) {
   RunContext& run = mesh.context();
   warn_of_precision(mesh);

@@ -15,6 +15,9 @@ struct Sliding;
 struct SlidingResult;
 struct SmoothingResult;
 
+/// What the user should know of what was read: a file of vertices to hold that names none.
+void warn_of_input(RunContext& run);
+
 /// What the user should know before the smoothing: what single precision loses, options that the method takes no notice
 /// of, a boundary that is too coarse, layers that are smoothed as all else. Collective where the mesh is in pieces.
 void warn_before_smoothing(StagedMesh& mesh);

@@ -135,6 +135,14 @@ class SameAsOneFile(ranks_tool.RanksTest):
             self.assertEqual(len(said), 1, name)
             with self.subTest(name):
                 self.assertIn(said[0], self.notes_of(3, "smooth", name, "out.pvtu", *options))
+        # That the whole mesh is needed is found late: by then nothing has been said that is said again.
+        self.write("none.txt", "# none")
+        self.write("inverted.off", "OFF 5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1.5 0.5 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n")
+        for name, method in (("apart.off", "smart"), ("inverted.off", "mean-ratio")):
+            with self.subTest(name):
+                said = self.run_over(3, "smooth", name, "out.pvtu", "--method", method, "--fixed-ids", "none.txt").err
+                self.assertIn("rank 0 had the whole mesh", " ".join(said.split()))
+                self.assertEqual(said.count("names no vertices"), 1, said)
 
     def test_marked_vertices(self):
         """Those of a file that rank 0 reads, and of pieces, are held as in one file."""
