@@ -36,7 +36,9 @@ struct TriangleCorner {
   /// Whether is_so(node) of all of them. (No branch, which would be guessed wrong: & is meant.)
   template <class IsSo>
   constexpr TRISMOOTH_HOST_DEVICE bool all(const IsSo& is_so) const {
-    return is_so(next) & is_so(previous);
+    const bool of_next = is_so(next);
+    const bool of_previous = is_so(previous);
+    return of_next & of_previous;
   }
 };
 
