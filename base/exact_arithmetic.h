@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Headers with inline arithmetic include this one. They promise the bits that the library computes, in the caller's

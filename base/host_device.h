@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Marks functions that run on the host and, compiled by nvcc, on the device: one definition of each formula.

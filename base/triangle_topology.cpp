@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/triangle_topology.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measures the CPU path on random Delaunay meshes (the paper's test data), stage by stage and by number of threads, and
 // checks on the way that every run gives the same bits.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every method makes of the shapes and sizes of elements, on meshes of many kinds: random ones with a boundary as
 // fine as the inside and without (the paper's data), distorted grids, and mesh files. Of each mesh and method two rows:
 // the elements with a vertex that may move, which are all that a method can change, and all elements.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes of about N vertices for the comparison of finite element solutions (finite_elements.py). In the unit square:
 //   hexagonal        Delaunay mesh of hexagonal points, each displaced at random
 //   displaced        a grid displaced by up to 45 % of its spacing in x and in y: some triangles are inverted

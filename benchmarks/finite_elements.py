@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """What smoothing does for finite element solutions: the tables of docs/finite_elements.md.
 
     finite_elements.py BUILD [--vertices N] [--meshes M] [METHOD]...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Times smooth() on arrays, for comparison with the same from Python (benchmarks/python_arrays.py): the meshes are the
 /// same, and so are the options.
 #include <algorithm>

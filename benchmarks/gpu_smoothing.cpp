@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measures smoothing on a CUDA device beside the CPU, on random Delaunay meshes (the paper's test data; mirrored tiles
 // above 4M vertices), and checks on the way that every run gives the same bits.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How many copies of others' vertices ranks hold of a mesh that is bisected, and that METIS partitions: as one file,
 // whose vertices it partitions, and as pieces, of whose blocks it does. Every rank reads the mesh.
 //

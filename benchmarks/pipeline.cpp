@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measures whole runs from file to file, stage by stage, by size, format and number of threads, beside VTK's reader,
 // writer and smoothing filter in the same process.
 //

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a call from Python costs, and where the arrays are meanwhile.
 
     python benchmarks/python_arrays.py [--vertices 1000000] [--runs 7]

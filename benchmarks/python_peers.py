@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Smoothing planar triangle meshes from Python: what there is, and trismooth.
 
     python benchmarks/python_peers.py [--meshes random holes machine inverted coast farfield]

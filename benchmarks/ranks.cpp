@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What smoothing a mesh in pieces costs on so many ranks: seconds, ghosts, messages and bytes of a sweep, memory. Every
 // rank makes its own block of mirrored Delaunay tiles; nobody has the whole.
 //

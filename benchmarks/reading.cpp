@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measures how long read_mesh() takes for the same mesh in files of several kinds, in turn: all of them once, then all
 // of them again, so that what else the machine does meets them alike.
 //

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What sliding along boundaries and interfaces does for the elements, and to the lines.
 
     build/python/bin/python benchmarks/sliding.py build/release/pipeline/trismooth

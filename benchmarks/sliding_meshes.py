@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes for benchmarks/sliding.py, each made of nothing but a seed: files that the program reads.
 
 Random squares are Delaunay meshes of random points; the others are made by Gmsh, by whose own smoothing the engineer's

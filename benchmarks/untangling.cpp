@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What share of tangled meshes is untangled, by domain and by what tangled them, and how long it takes.
 #include <algorithm>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtk_runs.h"
 
 #include <vtkGeometryFilter.h>

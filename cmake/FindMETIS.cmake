@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # METIS 5, which brings no package file of its own: METIS_FOUND, and the target METIS::METIS.
 
 find_path(METIS_INCLUDE_DIR metis.h)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes target CUDA::cudadevrt, the device's side of the runtime for dynamic parallelism, where CMake (before 3.27) does
 # not. After find_package(CUDAToolkit).
 if(NOT TARGET CUDA::cudadevrt)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The target `package` makes two packages of the programs:
 #
 # - trismooth-<version>-linux-<processor>.tar.gz, the portable one. It holds the programs with every shared library that

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Part of installing the portable package: copies every shared library that `programs` need to its folder lib, and
 # leaves them in `bundled_libraries`, by their paths on this machine.
 # Expects beside the variables of an install script: programs, strip.

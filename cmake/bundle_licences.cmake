@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Part of installing the portable package: writes to its folder `licences` whose code it holds beside trismooth's own.
 # Debian and its kin know that, with the licence of each package; elsewhere only the libraries are listed.
 # Expects beside the variables of an install script: bundled_libraries, packages_compiled_in, with_cuda, licences, licence_file.

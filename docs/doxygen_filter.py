@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Turns a page of the documentation, as GitHub shows it, into what Doxygen understands: docs/doxygen_filter.py PAGE.
 
 Headings get the labels that GitHub gives them, links between pages lead to these, and links to other files of the

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Puts the committed results of `trismooth bench` into docs/experiments.md, and their figure into
 docs/images/bench_speedup.svg.
 

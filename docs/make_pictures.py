@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Draws a part of an example mesh, coloured by shape, before and after smoothing: before.svg, after.svg (method smart) and
 mean_ratio.svg in docs/images; and how often which shape is there in the whole mesh: shape_histograms.svg.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A stage of one's own between reading and smoothing: it marks every vertex with its distance from the nearest
 // interface, in edges, found by circulating around vertices of the run's OpenMesh mesh, and holds those that are near.
 // Usage: hold_near_interface INPUT OUTPUT EDGES. Link with trismooth::pipeline.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Smoothing inside a program that has a mesh of its own: two arrays are all that trismooth needs to see. It takes them
 // as they are, here points with a z that is nobody's business, and vertex numbers of std::size_t.
 // Here its vertices are shaken in every step, as if it moved, and smoothed again. Link with trismooth::smoothing.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Smoothing an OpenMesh mesh of one's own type, with a progress callback.
 // Usage: smooth_openmesh MESH. Link with trismooth::halfedge (and trismooth::mesh_io, for the file).
 

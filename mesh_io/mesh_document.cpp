@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/mesh_document.h"
 
 #include "trismooth/base/machine/workers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mpi/local_mesh_checks.h"
 
 #include <algorithm>

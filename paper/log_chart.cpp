@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/paper/log_chart.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/cuda_or_cpu.h"
 
 #include <algorithm>

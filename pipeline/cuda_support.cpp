@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/cuda_support.h"
 
 // The one place that knows whether the build has CUDA.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/quality/text_columns.h"
 
 #include <algorithm>

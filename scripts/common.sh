@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
 # Sourced by the other scripts: where the project is, and how they all configure it.
 # One place, so that whatever one script has built is up to date for the next.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds the program and smooths an example mesh: one pole of an electric machine with ten material regions.
 # Fails where the mesh did not get better.
 set -euo pipefail

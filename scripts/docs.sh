@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the documentation as pages to read in a browser, of README.md, docs/ and the public headers:
 #
 #   scripts/docs.sh      into build/docs/html; fails for what Doxygen warns of

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs what the project needs to be built and tested on Debian 12 and Ubuntu 24.04, as far as it is missing.
 #
 #   scripts/install-deps.sh            compiler, CMake, libraries

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the virtual environment of the tests that need packages from PyPI, build/python: those of the Python package
 # (python/tests) and those that exchange files with Gmsh and meshio (tests/peers). Where that is impossible, for want of a
 # network say, the Python module is not built and these tests are skipped.

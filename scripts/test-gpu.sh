@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs the tests that need a CUDA device: from a build tree, or from an unpacked package with tests.
 #
 #   test-gpu.sh [FOLDER]               every program test_cuda* in FOLDER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // Catch2, version 2 (Debian 12) or 3 (Ubuntu 24.04), by one name each. Tests include this header and no other of

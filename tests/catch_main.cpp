@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The runner of Catch2, compiled once for all test programs, and their main.
 
 #define CATCH_CONFIG_RUNNER

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Runs the test cases of the program as its command line says. Returns the exit code.

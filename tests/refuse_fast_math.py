@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """refuse_fast_math.py COMPILER INCLUDE HEADERS_FOLDER...: every header below the folders that computes inline refuses to
 be compiled with fast-math or a part of it, and says why; without, the same headers are taken."""
 

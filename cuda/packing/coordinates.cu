@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/packing/coordinates.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
 

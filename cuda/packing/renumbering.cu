@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
 
 #include "trismooth/cuda/packing/renumbering.h"

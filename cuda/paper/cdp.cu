@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/paper/cdp.h"
 #include "trismooth/cuda/paper/cdp_parent.cuh"
 #include "trismooth/cuda/runtime/check.h"

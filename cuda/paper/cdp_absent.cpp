@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/paper/cdp.h"
 #include "trismooth/smoothing/errors.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cstddef>
 
 #include "trismooth/cuda/paper/paper_kernels.cuh"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/paper/paper_kernels.cuh"
 #include "trismooth/cuda/paper/single_block.h"
 #include "trismooth/cuda/runtime/check.h"

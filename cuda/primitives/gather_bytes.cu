@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/primitives/gather_bytes.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
 

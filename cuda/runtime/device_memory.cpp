@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/runtime/device_memory.h"
 
 #include <cstdint>

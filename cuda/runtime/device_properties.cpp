@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/runtime/device_properties.h"
 
 #include <cuda_runtime_api.h>

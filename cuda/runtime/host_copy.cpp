@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/runtime/host_copy.h"
 
 #include <algorithm>

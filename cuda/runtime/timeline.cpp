@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/runtime/timeline.h"
 
 #include "trismooth/cuda/runtime/check.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <vector>
 
 #include "trismooth/cuda/runtime/for_each.cuh"

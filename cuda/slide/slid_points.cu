@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/guard/stored_point.cuh"
 #include "trismooth/cuda/primitives/falling_key.h"
 #include "trismooth/cuda/runtime/for_each.cuh"

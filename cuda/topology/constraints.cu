@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/hold.h"
 #include "trismooth/cuda/primitives/atomics.h"
 #include "trismooth/cuda/runtime/device_buffer.h"

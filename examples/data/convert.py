@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Converts the triangles of a Gmsh 2.2 ASCII mesh to OFF, legacy VTK or VTU.
 
 Vertices that no triangle uses are dropped and all triangles made counter-clockwise. With --jitter, vertices inside a

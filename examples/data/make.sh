@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the meshes of this folder from the geometries beside them. Needs Gmsh (4.8 made the files that are here; other
 # versions give other triangles) and Python 3.
 set -eu

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes channel.msh, airfoil.su2 and bay.14 from the geometries beside them: files as Gmsh, SU2 and ADCIRC have them.
 
 Needs Gmsh for Python (4.15.2 made the files that are here; other versions give other triangles). Vertices inside a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh from a file, smoothed by several methods, and a problem solved on each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What both problems need: a mesh in Eigen's matrices, linear triangles, and equations solved by conjugate gradients.
 #pragma once
 

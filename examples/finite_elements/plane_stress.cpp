@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What smoothing does for a plate that is pulled, with a hole around (X, Y): errors and iterations on a mesh as it is,
 // and smoothed by each method. The rim of that hole is free, the rest of the boundary moves as in the infinite plate.
 // Usage: plane_stress MESH X Y RADIUS [METHOD]... Link with trismooth::mesh_io, trismooth::smoothing and Eigen.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane stress: a plate that is pulled in x, with a round hole (Kirsch 1898).
 #pragma once
 

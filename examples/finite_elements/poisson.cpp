@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What smoothing does for a Poisson problem: errors and iterations on a mesh as it is, and smoothed by each method.
 // Usage: poisson MESH [METHOD]... Link with trismooth::mesh_io, trismooth::smoothing and Eigen.
 

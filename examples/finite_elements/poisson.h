@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Poisson's problem: -laplace(u) = f, u given on the boundary.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh in pieces, one a rank, whose boundary moves: a channel whose floor bends into waves, in ten steps. Every rank
 // has a stretch of the channel and nothing of the others', but for the column of vertices that two neighbours have in
 // common, which they know by its ids. After every step the plan smooths all stretches together, across their ends. Link

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Smooths the mesh of a Gmsh model in place, and draws it before and after.
 
 The model is a bracket of steel with a round bushing of brass and a hole: two materials, and curved boundaries. Gmsh

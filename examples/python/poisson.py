@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Solves Poisson's problem with scikit-fem on a mesh of random points, before and after smoothing.
 
 The solution is known, so the errors are, too. Beside them stand the iterations of the conjugate gradients, plain and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/adcirc/list_directed_lines.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/bytes/memory_file.h"
 
 #include <cerrno>

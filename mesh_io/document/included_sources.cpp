@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/document/included_sources.h"
 
 #include "trismooth/base/text/list_text.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/inp/inp_element_types.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/mfem/mfem_nodes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/msh/msh_repeated_elements.h"
 
 #include <algorithm>

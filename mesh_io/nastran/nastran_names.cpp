@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/nastran/nastran_names.h"
 
 #include <algorithm>

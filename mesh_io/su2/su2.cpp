@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/su2/su2_keyword_line.h"
 #include "trismooth/mesh_io/su2/su2_reader.h"

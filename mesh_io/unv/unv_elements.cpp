@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements of data set 2412 by their FE descriptors, as the reference of the format lists them; nodes of curved ones go
 // around each face, corners and middles in turn.
 #include "trismooth/mesh_io/unv/unv_elements.h"

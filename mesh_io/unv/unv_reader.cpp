@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Universal files (I-deas): data sets between lines with -1. Read are the nodes (2411, 781), the elements (2412, 780)
 // and the groups (2435, 2452, 2467, 2477, and the older 2417, 2429, 2430, 2432) as the reference of the format
 // describes their records.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_values.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/vtk_xml/xml_names.h"
 
 #include "trismooth/base/text/markup_entity.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/cli/terminal_line.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/fields/triangle_tree.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Incremental insertion (A. Bowyer 1981, D. F. Watson 1981) in the order of a Hilbert curve, for which both the walk to
 // the next point and the work at it are O(1) on average (K. Buchin 2009, "Constructing Delaunay triangulations along
 // space-filling curves"). The outside of the hull is triangulated too, by triangles of a hull edge and one ghost

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What comes back to the pieces of a mesh that rank 0 has.
 
 #include <algorithm>

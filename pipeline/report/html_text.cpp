@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/report/html_text.h"
 
 #include "trismooth/base/text/markup_entity.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes for the tests of the adapters, with what is known of them by construction, and independent measures."""
 
 from __future__ import annotations

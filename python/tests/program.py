@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The program, whose bits those of the package are compared with."""
 
 from __future__ import annotations

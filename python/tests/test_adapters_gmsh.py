@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The current model of Gmsh."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """FEniCSx and Firedrake. They cannot be installed everywhere: classes with their names and their layouts of arrays stand
 for their meshes."""
 

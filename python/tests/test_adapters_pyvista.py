@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """PyVista and VTK."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Which adapter takes what, without importing anything for it."""
 
 from __future__ import annotations

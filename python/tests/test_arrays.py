@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What arrays go in, and what comes back."""
 
 from __future__ import annotations

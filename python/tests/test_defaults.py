@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Every face smooths alike where nothing is said, and says alike what is not valid."""
 
 from __future__ import annotations

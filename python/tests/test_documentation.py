@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What README.md, docs/python.md and docs/sliding.md show in Python runs, and the docstrings' examples are true."""
 
 from __future__ import annotations

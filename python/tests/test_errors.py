@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Bad input: an exception that names the argument, and nothing changed."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Files: read, smoothed and written as the program does it, with nothing lost."""
 
 from __future__ import annotations

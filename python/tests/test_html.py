@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What Jupyter shows of results."""
 
 from __future__ import annotations

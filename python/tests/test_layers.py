@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Layers that are flat on purpose: held by default, said, and moved where that is asked for."""
 
 import numpy as np

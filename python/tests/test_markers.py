@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Vertices inside that arrays of markers mark are held by the adapters as by the program, which is said."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Plans: connectivity analysed once, points smoothed as often as they change."""
 
 from __future__ import annotations

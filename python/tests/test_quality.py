@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Metrics as arrays, and their summary."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Regions of meshes of other packages, beside what test_judge.py holds all doors to."""
 
 from __future__ import annotations

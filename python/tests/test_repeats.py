@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Triangles that are listed again: counted and smoothed once, said, and no vertex is free for it."""
 
 import warnings

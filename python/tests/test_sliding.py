@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Vertices of boundaries and interfaces that slide along their lines."""
 
 from __future__ import annotations

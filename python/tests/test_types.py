@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The annotations of the package hold, and callers get them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A wheel that was installed brings what it needs. Run by scripts/wheels.sh --check; skipped for other installations."""
 
 from __future__ import annotations

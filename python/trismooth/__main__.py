@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """``python -m trismooth`` is the program: see ``python -m trismooth --help``."""
 
 from __future__ import annotations

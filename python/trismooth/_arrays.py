@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The arrays of callers: what they are, where they are, and how an array of the same kind is made.
 
 NumPy arrays pass through untouched. Everything else that has DLPack or ``__array__`` is taken without a copy where it is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The arrays that go beside points and triangles: what holds vertices, what these slide along, sizes."""
 
 from __future__ import annotations

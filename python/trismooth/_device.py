@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Arrays in memory of a CUDA device: CuPy, PyTorch, JAX and whatever has DLPack. They stay there."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes of other packages, by their adapters."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the caller should know of a result: sentences, which are warnings too."""
 
 from __future__ import annotations

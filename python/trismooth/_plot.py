@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of meshes, coloured by shape. They need matplotlib, which is imported when one is drawn."""
 
 from __future__ import annotations

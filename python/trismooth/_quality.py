@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The quality of a mesh's triangles."""
 
 from __future__ import annotations

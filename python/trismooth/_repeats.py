@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Triangles that are listed again, as programs do for every group that has them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Smoothing of arrays, and of meshes of other packages."""
 
 from __future__ import annotations

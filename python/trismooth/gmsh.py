@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Smoothing of the current model of Gmsh's Python interface."""
 
 from __future__ import annotations

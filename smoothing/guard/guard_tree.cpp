@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/guard/guard_tree.h"
 
 namespace trismooth {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/in_parts/mesh_cut.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 
 #include <atomic>

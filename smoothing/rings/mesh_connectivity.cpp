@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/rings/mesh_connectivity.h"
 
 #include <optional>

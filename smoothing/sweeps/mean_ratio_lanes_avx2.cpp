@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Compiled with -mavx2 as a whole: GCC takes vectors of 32 bytes apart early, by the function that they are first used
 // in. No code of it may end up in functions that others call, too: it has no function but those of 32 bytes, which are
 // its own, and everything is inlined into them, in every kind of build (a test looks).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/sweeps/slide_pass.h"
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cells with fewer vertices than their type needs. VTK's classes stop the program on some of them when the mesh is
 // written, and no other format holds them: they are refused when they are read.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Compressed arrays: the lowest and highest bit of every byte of every block and block header flipped, and headers that
 // lie. zlib and LZMA carry checksums, so what is accepted is the same mesh; LZ4 carries none, so numbers may differ,
 // but never how many.

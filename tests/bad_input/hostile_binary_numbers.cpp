@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The same for binary data: hostile numbers of every width at every byte, of encoded and compressed arrays at every
 // number. Which bytes are a coordinate or an index is found out by what a harmless number there changes.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every byte of every file of the collection replaced by hostile ones: the file is refused as it should be, or read
 // into a document that keeps every promise and can be written.
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every number of every file of the collection replaced by hostile ones. What a number is for is found out by what
 // changes with it: coordinates, vertex indices, counts, values of arrays, or nothing (comments, names).
 #include <algorithm>

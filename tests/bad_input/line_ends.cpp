@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The line ends LF, CR LF and CR, all three in one file, and locales that write numbers with a comma: the same mesh,
 // and the same bytes written back.
 #include <clocale>

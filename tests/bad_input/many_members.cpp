@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small files whose groups overlap so much that their members, one by one, would fill the memory of any
 // machine.
 #include <string>

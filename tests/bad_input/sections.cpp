@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parts of files that are missing, doubled, of another type or in another order: refused with the place and the reason,
 // or read with a note that says what is not kept. What is silently dropped would be lost. More of these stand in the
 // tests of each format.

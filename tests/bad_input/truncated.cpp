@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every file of the collection, cut at every byte. Most cuts are refused. Those that leave a whole file cannot be told
 // from one: formats without an end or a count (OBJ, and the arrays of legacy VTK files) end wherever they are cut, and
 // a last number is whole wherever it is cut. The samples of the formats say which cuts these are; no other is accepted.

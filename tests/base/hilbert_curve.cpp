@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/hilbert_curve.h"
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs every combination of method, form, precision, execution, its layouts and topology on a device and compares the
 // bits of the result, before and after the guard, with the CPU's. Prints one row for each. A row counts only if the
 // report names a GPU and counts launches. Form B in no fixed order is held to the contract alone.

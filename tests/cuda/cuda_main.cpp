@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The main of test programs that need a device. Where there is none they say so and exit with 77: skipped, not passed.
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plans for two devices leave no thread and no socket behind: NCCL's stay to the end of the process, so it is asked for
 // them once and not for every plan.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tally of moves on the device divides only where it has to: it has to be that of all moves, joined.
 
 #include <cmath>

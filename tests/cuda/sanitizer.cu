@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The program that compute-sanitizer is run on: every kernel of the CUDA part on meshes of 1K and 10K vertices, with
 // the results compared with the CPU's. The tools do not see into kernels that a device launches and refuse programs
 // that have any, so this one is linked without the CDP version; the kernels that version is made of, parent and

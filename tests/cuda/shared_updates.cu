@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs every one-ring update and the quality function on the device and on the host over the same random rings and
 // compares the bits: the proof that one definition of each formula serves both. Exit status 77: no device, skipped.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/sweeps/sweep_batches.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What callers hand over to the CUDA backend: plans used again, meshes in device memory, arrays of the host in every
 // form, and what is refused.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The colours are the host's, and the device gives up before a numbering makes it work for each vertex.
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several devices of one process share a mesh out: the CPU's bits, whatever devices there are. A device that is named
 // twice has two parts, so that one device is enough for most of it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What comes before and after the sweeps on the device: the local frame and the never-worse commit, against the CPU's.
 
 #include <array>

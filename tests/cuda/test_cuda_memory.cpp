@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the backend's memory comes from, what it counts, and how the caller's arrays get there and back.
 
 #include <algorithm>

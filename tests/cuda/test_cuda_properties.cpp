@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The CUDA backend on random meshes of every kind: the CPU's bits, in every combination of execution, layout, topology,
 // form, method and precision, each mesh in a few of them; from device memory and in plans; and where no order is fixed,
 // the contract.

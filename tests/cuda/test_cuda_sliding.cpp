@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices that slide along boundaries and interfaces, on the device: the CPU's bits, counts and deviations.
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the device finds of a mesh's topology is what the host finds, in every number.
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is no mesh is refused on the device as on the host, with the same message.
 
 #include <array>

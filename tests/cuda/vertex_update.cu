@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the resident execution evaluates a vertex with, in registers, by a team, without dividing: it has to do exactly
 // what the method's own function says of the same ring.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The mesh, its reports and the table are all written, or none of them is: old files, the input among them, stay."""
 
 import json

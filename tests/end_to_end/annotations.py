@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Annotations: right values, replaced by a later run, never taken for input; a file's own arrays stay."""
 
 import os

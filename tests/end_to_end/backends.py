@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Who runs the sweeps: what is said where there is no device, what auto takes, and the same bits from all of them.
 
 A test that needs a device, or needs that there is none, is skipped elsewhere and says so.

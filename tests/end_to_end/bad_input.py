@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Damaged, odd and hostile files: refused with one clear line and nothing written, or read as what they mean.
 
 Examples, by the program itself: damage anywhere in files of all formats is in tests/bad_input. The folder that the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """`trismooth bench`: its reports agree with each other and with `trismooth smooth`, and it can be interrupted."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The page of `trismooth bench` in a real browser: nothing fails, the figures are drawn, it can be printed.
 
 Exits with 77 where there is no browser, which ctest shows as skipped.

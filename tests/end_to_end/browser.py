@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A headless Chromium, driven over a pipe in its DevTools protocol: that tells what a log keeps to itself."""
 
 import base64

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The command line: outputs, and what combinations of options must keep."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Compares a smoothed file with the one it was made from, byte by byte or, for XML, value by value."""
 
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A locale that writes numbers with a comma changes nothing: not what is read, written, printed or reported.
 
 Makes the locale in a folder of its own; exits with 77 where that cannot be done, which ctest shows as skipped.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Disks that are full, or become so on the way (a file system counts by pages): the old file stays, nothing else is left, and the message says why."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Killed or interrupted at any moment: the old output or the whole new one, and who was interrupted is told which."""
 
 import concurrent.futures

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Too little memory, and threads that the system refuses: a result or one clear message, no crash and no hang."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What an output does not hold of its input is said, in full, whatever else is to be said; what it can hold it holds."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A smoothed file is its input with the coordinates of moved vertices in other digits, and no mesh gets worse.
 
 Examples: that all formats and dialects are written so is in tests/mesh_io and tests/bad_input. All is judged by the readers and the geometry beside this file, none of which the program uses. The folder that the

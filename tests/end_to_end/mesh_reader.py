@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Reads mesh files independently of the program: points, cells, arrays, and where in the bytes the coordinates are.
 
 Slow and strict, for well-formed files only. XML formats go through compare_vtu.py.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What HTML pages must be: tags closed in their order, nothing from outside."""
 
 import html.parser

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a mesh's fixed vertices, orientation and shapes are, worked out independently of the program."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """In which plane a mesh is, as users meet it. Distances are judged in exact arithmetic on the coordinates as they stand in the file."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Lets a test mount file systems that nobody else sees and that are gone with it, however it ends."""
 
 import os

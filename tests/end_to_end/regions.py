@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """No interface moves unseen: which cell arrays hold what is between their values, and what the output says of it.
 
 What must stay is worked out here, from the file's triangles and values alone.

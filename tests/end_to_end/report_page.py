@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The HTML report in a real browser: nothing fails, and it can be read in every window, a telephone's too.
 
 Exits with 77 where there is no browser, which ctest shows as skipped.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The reports of whole runs: warnings, numbers that agree with each other, and the command that was run."""
 
 import html

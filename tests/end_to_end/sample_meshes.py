@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes small meshes in every format and spelling of it. All are one jittered grid, two regions, some vertices free."""
 
 import base64

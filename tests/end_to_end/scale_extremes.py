@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes of extreme places, sizes and gradings. What came out is judged in exact arithmetic (fractions), on the
 coordinates as they stand in the file: never worse than what went in, in double and in single precision."""
 

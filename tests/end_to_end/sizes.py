@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Sizes of the user's own: an array of the file says how long edges, or how large cells, are to be.
 
 How near sizes are to them is worked out here, from the files alone.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes on standard streams, compressed ones, and ones whose name does not say what they are."""
 
 import gzip

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a terminal gets: lines that fit, a clock that runs, and no control characters."""
 
 import os

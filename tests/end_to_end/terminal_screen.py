@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The program on a pseudo-terminal: what it writes there, and how wide that is."""
 
 import fcntl

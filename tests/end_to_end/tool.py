@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs the program under test in a scratch folder of its own."""
 
 import json

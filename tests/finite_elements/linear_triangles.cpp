@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "finite_elements/linear_triangles.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "finite_elements/poisson.h"
 
 #include <cmath>

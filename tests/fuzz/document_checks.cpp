@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "document_checks.h"
 
 #include <algorithm>

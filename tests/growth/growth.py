@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Time follows the size of the input, whatever is in it: four times as much input takes four times the instructions,
 and a little more for what is sorted. Counted by callgrind, whose counts are the same in every run.
 

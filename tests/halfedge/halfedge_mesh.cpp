@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What MeshConstraints are made from.
 
 #include "trismooth/mesh_io/halfedge/mesh_constraints.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // plan(mesh) and quality(mesh).
 
 #include <array>

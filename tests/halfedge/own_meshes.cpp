@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // smooth(mesh) of meshes with traits of other people.
 
 #include "support/own_meshes.h"

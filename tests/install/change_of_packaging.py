@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """change_of_packaging.py SCRIPTS: where packages may have changed is seen: of a branch, of a working tree, without git.
 
 Ends with 77 where there is no git.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """debian_package.py CPACK CONFIGURATION_FILE FOLDER MESH: makes the Debian package, and looks at it as dpkg does: it depends
 on packages that are needed to run the program and on no other, holds the program and its papers and nothing to develop
 with, and the program runs from where it is unpacked."""

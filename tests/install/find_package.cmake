@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # A project that knows nothing but PREFIX, where trismooth is installed, finds COMPONENT there, builds SOURCE with it and
 # runs the program with ARGUMENTS. Packages in WITHOUT count as missing on the machine. With EXACT_ARITHMETIC it does the
 # same with exact_arithmetic.cpp, which has flags of its own.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs the build once, for the tests that look at what is installed, and moves it: nothing in it may know where it
 # was installed. No text in it names a folder of the project or of the build.
 # Usage: cmake -D BUILD=... -D CONFIGURATION=... -D SOURCE=... -D FOLDER=... -P installed_tree.cmake

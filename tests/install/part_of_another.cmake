@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # A project that has trismooth as a part of it builds base, quality and smoothing on a machine with TBB alone, and a
 # program with them: by add_subdirectory with static libraries, then by FetchContent with shared ones that it installs.
 # What was compiled for the one serves the other.

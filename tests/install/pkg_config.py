@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """pkg_config.py COMPILER FLAGS PREFIX FOLDER "PACKAGE..." SOURCE [ARGUMENT...]: with what pkg-config says of the packages,
 installed below PREFIX, the compiler alone makes a program of SOURCE, which runs and does its work."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs what the portable package holds, moves it elsewhere and looks at every program and library there: none has a
 # search path that leaves the package, and each finds all that it needs in the package, but for the C library.
 # Usage: cmake -D BUILD=... -D CONFIGURATION=... -D READELF=... -D FOLDER=... -P portable_package.cmake

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """public_headers.py DOCUMENT INCLUDE COMPONENTS COMPILER [FLAG...]: the headers installed below INCLUDE are those that
 the document lists for the components (separated by commas), no more and no less; each of them is compiled alone, with
 nothing but that folder to find headers of trismooth in; and trismooth/trismooth.h includes every one of them."""

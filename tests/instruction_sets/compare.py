@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """compare.py PROGRAM OTHER [SET]: both print the same, and many lines, OTHER by no better instructions than SET.
 
 Ends with 77 where OTHER cannot run on this machine.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A hash of the bits of every smoothing of many random meshes, and of their quality before and after, one mesh a line.
 // compare.py holds this program, compiled for one instruction set, to itself, compiled for another.
 #include <bit>

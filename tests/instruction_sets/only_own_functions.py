@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """only_own_functions.py NM CMAKE GENERATOR COMPILER SOURCE FOLDER OBJECT...: nothing shares a function for AVX2.
 
 The linker keeps one of the weak functions of a name: a processor without AVX2 might get that one. So what is compiled

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Compare two .vtu or .vtp files array by array: name, type, components and values, bit for bit.
 
 Needs nothing but the standard library, so that it can judge programs that read and write through VTK. It knows ascii,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Medit as text: what is read, written back, refused, and written from other formats.
 #include <cstdint>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Medit as libMeshb writes it in binary: every version, either byte order.
 #include <bit>
 #include <cstdint>

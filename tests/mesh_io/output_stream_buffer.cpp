@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/vtk_xml/encoding/output_stream_buffer.h"
 
 #include <ostream>

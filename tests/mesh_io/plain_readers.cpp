@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which files are read in parts: what files are made of nearly always. That they are read as by the careful way is
 // shown by reading_in_parts.cpp.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Text and binary files read in parts of any size, by any number of threads: the same document, notes and messages.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What files say of arrays beside names and numbers: names of components, units, active arrays. From each of VTK's
 // formats to each other all of it arrives, or what_is_lost() says what does not. VTK's own readers judge.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files that are cut, changed or wrong: each is refused with the place and the reason, or read whole.
 
 #include "trismooth/mesh_io/codec.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Dialects of legacy files that some programs write: a byte-order mark, comments, blanks at the ends of lines, SCALARS
 // without a lookup table, strips. The same mesh is read, and the same bytes are written back.
 

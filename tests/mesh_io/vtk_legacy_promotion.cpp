@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Legacy files whose coordinates are whole numbers: nothing moves, nothing changes; a vertex that moves to another
 // whole number changes that number; one that moves between them makes the file's type double.
 

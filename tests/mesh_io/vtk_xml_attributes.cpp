@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the tags of a file say beside what VTK reads: <VTKFile> keeps it, of the others it is told.
 
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_attributes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arrays as other programs encode them: the size in front of base64 by itself, more numbers than the counts ask for.
 // VTK's reader takes the same files for the same mesh.
 

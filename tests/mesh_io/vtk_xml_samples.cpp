@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "vtk_xml_samples.h"
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pieces whose arrays differ: what all have is joined, by name; what one lacks is told and left out, as VTK does it.
 
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_shared_arrays.h"

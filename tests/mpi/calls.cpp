@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Points, sizes, limits and constraints of a call mean on ranks what they mean for the whole.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ids may be any numbers: the bits are those of a run of the whole.
 
 #include <algorithm>

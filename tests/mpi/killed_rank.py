@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """A rank that is killed in the middle of smoothing ends the whole job, soon, and the launcher says so.
 
     killed_rank.py LAUNCHER... PROGRAM

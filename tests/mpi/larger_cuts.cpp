@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Larger meshes, cut as programs cut them and as none would: the bits are those of a run of the whole.
 
 #include <algorithm>

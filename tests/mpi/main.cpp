@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The main of the test program, which runs on several ranks: all run the same tests, and the first one reports.
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles that are listed in both ways, on several ranks, are oriented as those of the whole.
 
 #include <algorithm>

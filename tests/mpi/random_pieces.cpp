@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mpi/random_pieces.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh in pieces comes out with the bits of the whole, for every number of ranks and every way of cutting.
 
 #include "catch.h"

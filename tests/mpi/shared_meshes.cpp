@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes of other people, where they lie beside the checkout, cut by METIS.
 
 #include <cstddef>

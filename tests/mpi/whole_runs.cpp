@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mpi/whole_runs.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/paper/bench_command.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/paper/experiment_report.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Files that Gmsh writes come back from trismooth with nothing lost, and Gmsh opens them with every group in place."""
 
 import os

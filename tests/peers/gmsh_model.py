@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A model in Gmsh: a channel of two materials with a hole, named groups of every dimension, periodic sides."""
 
 import contextlib

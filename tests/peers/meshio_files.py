@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Files that meshio writes come back with nothing lost, and meshio reads what trismooth writes in each of its formats."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Compares two decks of Nastran in fixed columns that are to be the same but for coordinates of GRIDs."""
 
 import re

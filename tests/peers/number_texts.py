@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Compares two texts that are to be the same but for numbers."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes of other formats of which only a part is in groups, and how many triangles and lines each has."""
 
 

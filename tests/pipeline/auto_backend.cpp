@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/auto_backend.h"
 
 #include "trismooth/smoothing/cpu_backend.h"

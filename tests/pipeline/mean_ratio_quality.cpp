@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the mean-ratio method promises of the elements, beside the paper's rule, with the defaults of both.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cells of other types that are triangles, as real programs write them.
 
 #include <algorithm>

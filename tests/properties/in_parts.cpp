@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh that is smoothed in parts by threads of one process comes out as one that is not.
 
 #include "properties/in_parts.h"

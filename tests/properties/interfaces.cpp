@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Halfedge meshes and planes of space give the bits of the flat arrays.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What holds of layers put into meshes: their heights.
 
 #include <algorithm>

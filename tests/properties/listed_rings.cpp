@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/listed_rings.h"
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The CPU backend against the contract written down with no thought of speed, bit for bit.
 
 #include <algorithm>

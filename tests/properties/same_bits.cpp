@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The result is a function of mesh and options alone: not of the run, the plan, the evaluation, the threads, nor of the
 // order and the corners in which triangles are listed.
 

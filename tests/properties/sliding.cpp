@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What users are promised of vertices that slide, judged from the coordinates alone: who may, where to, how far the
 // lines are from what they were, and that nothing gets worse. Shares no code with what it judges.
 

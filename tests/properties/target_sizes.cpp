@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // With sizes asked for: the same bits from every number of threads, plan, evaluation and order of triangles, scaled
 // with the mesh by powers of two or not; and nothing that is valid gets invalid.
 

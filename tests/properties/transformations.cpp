@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a transformation of the mesh that loses no digit does to the result.
 
 #include <algorithm>

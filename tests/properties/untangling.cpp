@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What tangles a valid mesh is undone, whatever its domain; and where the sweeps follow, nothing is left inverted.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices that no cell uses keep their bits, and have no say in anything.
 
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/quality/size_change.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """bad_pieces.py PROGRAM: what is wrong with a mesh in pieces is said once, names the file, and ends all ranks."""
 
 import os

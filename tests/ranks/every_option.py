@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """every_option.py PROGRAM: whatever is asked for, one file and a mesh in pieces get the coordinates, the report and the
 arrays of the serial run on any number of ranks, and it is said where rank 0 had the whole mesh in its memory."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Preloaded into the ranks of a job: has operator new fail on one of them, as it does where memory is used up. In the
 // environment: FAILING_RANK; FAIL_AT, the number, from 1, of the allocation that fails, of those that count, which have
 // 256 bytes at least and are made by the program itself

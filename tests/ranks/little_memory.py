@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Memory that one rank of three lacks, at whatever place, ends all ranks, soon, with a message and the exit code that a
 mesh too large for one process has; an old output survives.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """one_file_in_ranges.py PROGRAM: a file that no rank reads whole gets the coordinates and the report of the serial run,
 and its points, cells and arrays are in the pieces that are written, each where its number says."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """options_of_ranks.py PROGRAM: options that one rank alone is given are refused, by name, and no job waits for ever.
 
 Examples: which options these are is in same_options.cpp.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """partitions.py PROGRAM: how a mesh is shared out among ranks cannot be seen in the result."""
 
 import glob

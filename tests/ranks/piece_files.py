@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """piece_files.py PROGRAM: what is read and written of a mesh in pieces; nothing gets lost."""
 
 import os

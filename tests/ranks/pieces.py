@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes in pieces as VTK's programs write them, and what can be read of them: ASCII, by hand."""
 
 import os

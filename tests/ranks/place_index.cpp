@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers in an ascending list are found at their places, however they lie.
 
 #include "trismooth/pipeline/ranks/place_index.h"

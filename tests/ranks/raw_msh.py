@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Binary MSH files as Gmsh writes them, of triangles, quadrilaterals and lines."""
 
 import struct

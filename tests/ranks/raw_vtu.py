@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """VTU with raw appended arrays, as ParaView and meshio write it: writes it in all its forms, and reads what the program
 writes."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options that one rank alone is given, or that it is not given, are named, by all ranks.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How the program shares a mesh out: evenly, alike on all ranks, and with short borders.
 
 #include "trismooth/pipeline/ranks/partition/vertex_owners.h"

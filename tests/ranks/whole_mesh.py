@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """whole_mesh.py PROGRAM: rank 0 has the whole of a mesh in pieces, to write one file or to do what is not done in
 pieces."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/sweeps/mean_ratio_lanes.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/methods/one_ring_update.h"
 
 #include <cstddef>

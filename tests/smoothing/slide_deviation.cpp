@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How far a new line is from the old one, against distances between points of both taken densely.
 
 #include "trismooth/smoothing/slide/slide_deviation.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sliding as the library offers it, on meshes whose lines are known.
 
 #include "trismooth/smoothing/sliding.h"

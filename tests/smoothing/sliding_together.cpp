@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices that slide as one: periodic sides, faces of cracks.
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What smooth() and plans refuse, and leave untouched.
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Threads that smooth the parts of a mesh reach each other, and none waits for one that has failed.
 
 #include "trismooth/smoothing/in_parts/thread_team.h"

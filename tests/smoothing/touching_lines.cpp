@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lines that touch without sharing vertices: the sides of two parts that are there twice, nearly in the same place, or
 // with vertices of their own. What nobody looks at alone must not part or run into each other.
 

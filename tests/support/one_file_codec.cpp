@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/one_file_codec.h"
 
 #include <algorithm>

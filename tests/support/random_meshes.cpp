@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/random_meshes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // TRISMOOTH_SANITIZED: the tests run under a sanitizer, which brings its own malloc() and takes some ten times as long,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/xml_arrays.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
 #include "trismooth/cuda/primitives/grid_barrier.cuh"

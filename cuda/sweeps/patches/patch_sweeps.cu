@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/primitives/grid_barrier.cuh"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/sweeps/patches/patch_sweeps.h"

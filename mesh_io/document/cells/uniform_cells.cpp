@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/document/cells/uniform_cells.h"
 
 #include "trismooth/mesh_io/bytes/shared_blocks.h"

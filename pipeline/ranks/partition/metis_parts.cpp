@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/ranks/partition/metis_parts.h"
 
 #include <stdexcept>

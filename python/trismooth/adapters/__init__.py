@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Adapters between meshes of other packages and plain arrays.
 
 An adapter is a module with

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes of FEniCSx: dolfinx.mesh.Mesh.
 
 They are smoothed in place: their coordinates are the array ``mesh.geometry.x``.

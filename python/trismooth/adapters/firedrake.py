@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes of Firedrake.
 
 They are smoothed in place: their coordinates are the values of the function ``mesh.coordinates``.

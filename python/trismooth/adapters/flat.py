@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What adapters make of a mesh, and what they have in common.
 
 What a mesh means is the program's business: :func:`flat_mesh` hands cells and arrays to it, as a file would. Adapters of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes of PyVista and VTK: PolyData and UnstructuredGrid.
 
 Importing this module adds the accessor ``mesh.trismooth`` to PyVista's classes, if PyVista is imported and knows

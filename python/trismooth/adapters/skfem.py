@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Triangle meshes of scikit-fem: MeshTri1 and MeshTri2."""
 
 from __future__ import annotations

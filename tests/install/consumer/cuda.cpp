@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The component cuda: what it finds on this machine, which may be nothing.
 #include <cstdio>
 

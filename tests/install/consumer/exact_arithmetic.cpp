@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A program of a user, compiled with what makes programs fast (-O3 -march=native: the processor can multiply and add at
 // once): what the headers compute inline in it has the bits of their formulas. The oracle is the compiler's own
 // arithmetic of constants, which rounds after every operation.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The component halfedge alone: four triangles around a vertex that is not in the middle of them, once in the mesh of
 // this project and once in one with traits of the program's own, where a corner of it is locked as well.
 #include <cstdio>

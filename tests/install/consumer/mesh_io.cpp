@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The component mesh_io alone: the mesh that is named is written in another format, read back and compared.
 #include <cstdio>
 #include <filesystem>

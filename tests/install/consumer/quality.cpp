@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The component quality alone, by the header for all.
 #include <cstdio>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // So it does where devices make the sweeps, each rank on one.
 
 #include "trismooth/cuda/backend.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rank 1 dies in the middle of smoothing: the others must not wait for it for ever.
 
 #include <csignal>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A plan is refused before MPI is there and when it has gone, and one that outlives it frees what it has.
 
 #include <cstdio>

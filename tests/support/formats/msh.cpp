@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After the chapter "MSH file format" of Gmsh's manual.
 #include <cstdint>
 #include <string>

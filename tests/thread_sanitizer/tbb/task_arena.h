@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // What the project uses of TBB, made of nothing but threads of the standard library, for the build with the thread
