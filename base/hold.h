@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ inline constexpr std::uint8_t bow_tie = 4;       ///< its triangles form more th
 inline constexpr std::uint8_t isolated = 8;      ///< of no triangle
 inline constexpr std::uint8_t interface = 16;    ///< on an edge between two regions
 inline constexpr std::uint8_t other_cell = 32;   ///< of a cell that is not a triangle
-inline constexpr std::uint8_t named = 64;        ///< named by the user
+inline constexpr std::uint8_t named = 64;        ///< named by the user, or kept for a layer: see LayersResult
 inline constexpr std::uint8_t line = 128;        ///< of a line or a link that the caller names
 
 /// Whether a vertex held for these reasons is of no cell at all. It stays where it is, and nothing depends on where.

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/mesh_size.h"
 
 #include <limits>
+#include <stdexcept>
 
 #include "trismooth/base/errors.h"
 
@@ -21,9 +23,23 @@ void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count) {
   }
 }
 
+void require_a_point_a_vertex(std::size_t points, std::size_t components, std::int64_t vertex_count) {
+  const auto expected = static_cast<std::size_t>(vertex_count);
+  if (points != expected) {
+    const bool may_be_triples = components == 2 && 2 * points == 3 * expected;
+    throw std::invalid_argument("points: " + std::to_string(points) + " of them, expected one for each of " +
+                                std::to_string(expected) + " vertices" +
+                                (may_be_triples ? "; xyz_points() is for x, y and z" : ""));
+  }
+}
+
+std::string numbering_text(std::int64_t vertex_count) {
+  return vertex_count == 0 ? ", and there are no vertices"
+                           : "; vertices are numbered from 0 to " + std::to_string(vertex_count - 1);
+}
+
 void throw_no_such_vertex(std::int64_t triangle, const std::string& vertex, std::int64_t vertex_count) {
-  throw MeshError("triangle " + std::to_string(triangle) + " names vertex " + vertex + " of " +
-                  std::to_string(vertex_count));
+  throw MeshError("triangle " + std::to_string(triangle) + " names vertex " + vertex + numbering_text(vertex_count));
 }
 
 }  // namespace trismooth

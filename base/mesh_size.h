@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -9,6 +11,13 @@ namespace trismooth {
 /// than 715,827,882 triangles: their corners are numbered with 32 bits. For counts as they come, before they are
 /// narrowed and before memory is taken.
 void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count);
+
+/// Throws std::invalid_argument unless there is one of the `points` for each of the vertices. `components`: that each
+/// of them has, for the hint that pairs may be x, y and z in turn.
+void require_a_point_a_vertex(std::size_t points, std::size_t components, std::int64_t vertex_count);
+
+/// "; vertices are numbered from 0 to 4": how the complaint about a vertex number goes on.
+std::string numbering_text(std::int64_t vertex_count);
 
 /// Throws the MeshError for a triangle with a vertex number out of range.
 [[noreturn]] void throw_no_such_vertex(std::int64_t triangle, const std::string& vertex, std::int64_t vertex_count);

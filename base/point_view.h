@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <concepts>
@@ -33,6 +34,23 @@ template <class M>
 concept CoordinateMatrix = Matrix<M> && Coordinate<MatrixNumberOf<M>> && Lasting<M>;
 template <class M>
 concept PointMatrix = CoordinateMatrix<M> &&(ColumnsOf<M, 2, 3> || RowsOf<M, 2, 3>);
+
+/// What may be meant as points and does not say by its type where their numbers are.
+template <class R>
+concept OtherPoints = (ContiguousRange<R> && std::is_class_v<std::ranges::range_value_t<R>> &&
+                       NumberTuple<std::ranges::range_value_t<R>>::size == 0) ||
+                      (CoordinateMatrix<R> && !PointMatrix<R>);
+
+/// Does not compile, and says what to write.
+template <OtherPoints R>
+constexpr void refuse_points() {
+  static_assert(!ContiguousRange<R>,
+                "trismooth: the type of these points does not say where their numbers are: "
+                "xy_points(&nodes[0].x, nodes.size(), sizeof(Node)) does, or a NumberTuple of the type");
+  static_assert(!CoordinateMatrix<R>,
+                "trismooth: the type of this matrix does not say whether its rows or its columns are points: "
+                "point_rows(matrix) or point_columns(matrix) does");
+}
 
 }  // namespace array_layout
 

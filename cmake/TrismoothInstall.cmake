@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What `cmake --install` puts where, so that another project says find_package(trismooth) or asks pkg-config.
 # Every module is a component with an export file of its own: who asks for `smoothing` alone needs neither
 # OpenMesh nor VTK on the machine.
@@ -5,11 +6,10 @@
 include(CMakePackageConfigHelpers)
 set(trismooth_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/trismooth")
 
-foreach(module IN ITEMS base quality smoothing cuda mpi mesh_io halfedge pipeline)
+foreach(module IN ITEMS base quality smoothing cuda mpi mesh_io space halfedge pipeline)
   if(TARGET trismooth_${module})
     install(TARGETS trismooth_${module} EXPORT trismooth_${module}
-            LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-            FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+            LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     set_target_properties(trismooth_${module} PROPERTIES INSTALL_RPATH "$ORIGIN")
     list(APPEND trismooth_installed_modules ${module})
   endif()

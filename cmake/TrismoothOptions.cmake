@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What is built. On its own the project builds all its parts; as a part of another project (add_subdirectory,
 # FetchContent) the libraries base, quality and smoothing alone, which need TBB and nothing else. The same, with the
 # Python module, where it is built as a Python package (scikit-build-core says SKBUILD).
@@ -11,8 +12,10 @@ if(PROJECT_IS_TOP_LEVEL)
 endif()
 
 if(SKBUILD)
-  option(TRISMOOTH_PYTHON_FILES "Have the Python package read and write files, and be the program as well" OFF)
-  set(files_by_default ${TRISMOOTH_PYTHON_FILES})
+  set(files_by_default OFF)
+  if(TRISMOOTH_PYTHON_FILES)
+    set(files_by_default ON)
+  endif()
   set(all_by_default OFF)
   set(python_by_default ON)
 else()
@@ -49,9 +52,10 @@ trismooth_part(TRISMOOTH_MESH_IO ${files_by_default} "Build the component mesh_i
 trismooth_part(TRISMOOTH_VTK ${files_by_default} "Have mesh_io read and write .vtu and .vtp (needs VTK and Expat)"
                TRISMOOTH_MESH_IO)
 trismooth_part(TRISMOOTH_HALFEDGE ${files_by_default} "Build the component halfedge: OpenMesh meshes (needs OpenMesh and Eigen)")
-trismooth_part(TRISMOOTH_PIPELINE ${files_by_default} "Build the component pipeline: from file to file (needs fmt and xxHash)"
-               TRISMOOTH_MESH_IO TRISMOOTH_HALFEDGE)
-trismooth_part(TRISMOOTH_CLI ${files_by_default} "Build the program (needs CLI11, nlohmann_json and fmt)" TRISMOOTH_PIPELINE)
+trismooth_part(TRISMOOTH_PIPELINE ${files_by_default} "Build the component pipeline: from file to file (needs fmt, xxHash, nlohmann_json and Eigen)"
+               TRISMOOTH_MESH_IO)
+trismooth_part(TRISMOOTH_CLI ${files_by_default} "Build the program (needs CLI11 and fmt)" TRISMOOTH_PIPELINE)
+trismooth_part(TRISMOOTH_PYTHON_FILES ON "Have the Python module read and write files, and be the program as well" TRISMOOTH_CLI)
 if(CMAKE_CUDA_COMPILER)
   trismooth_part(TRISMOOTH_CUDA ${all_by_default} "Build the component cuda (needs nvcc)")
 else()

@@ -1,6 +1,7 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Files for pkg-config, one a component: trismooth-smoothing.pc and others. They name no folder of this machine, so an
-# installed tree may be moved. Not for cuda, nor for pipeline, which may hold it: where the CUDA toolkit is, only CMake
-# finds out.
+# installed tree may be moved. Not for cuda, nor for a pipeline that holds it: where the CUDA toolkit is, only CMake finds
+# out.
 
 file(RELATIVE_PATH prefix_from_pkg_config "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/prefix")
 
@@ -48,6 +49,18 @@ if(TRISMOOTH_MESH_IO)
   trismooth_pkg_config(mesh_io "Mesh files of trismooth: OFF, OBJ, PLY, STL, VTK" REQUIRES trismooth-base
                        INSIDE_REQUIRES ${requires} INSIDE_LIBRARIES ${libraries})
 endif()
+if(TARGET trismooth_space)
+  trismooth_pkg_config(space "Planes and maps that plane meshes lie in: what trismooth-pipeline and -halfedge need"
+                       REQUIRES trismooth-smoothing)
+endif()
 if(TRISMOOTH_HALFEDGE)
-  trismooth_pkg_config(halfedge "Smart Laplacian smoothing of OpenMesh meshes" REQUIRES trismooth-smoothing eigen3 openmesh)
+  trismooth_pkg_config(halfedge "Smart Laplacian smoothing of OpenMesh meshes" REQUIRES trismooth-space eigen3 openmesh)
+endif()
+if(TRISMOOTH_PIPELINE AND NOT TRISMOOTH_CUDA)
+  set(halfedge)
+  if(TRISMOOTH_HALFEDGE)
+    set(halfedge trismooth-halfedge)
+  endif()
+  trismooth_pkg_config(pipeline "Mesh files read, checked, smoothed and written, as the program trismooth does it"
+                       REQUIRES trismooth-mesh_io trismooth-space ${halfedge} INSIDE_REQUIRES fmt libxxhash)
 endif()

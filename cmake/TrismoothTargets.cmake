@@ -1,19 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # How every target of the project is made: one language level, one set of warnings, and floating-point
 # arithmetic that is the same for every compiler, thread count and instruction set.
 
-# Sources say `#include "trismooth/quality/metrics.h"` in the tree as well as installed: the build tree
-# holds one link for each folder.
+# Sources say `#include "trismooth/quality/metrics.h"` in the tree as well as installed: the build tree holds a link for
+# each folder, for the project's own targets, and for those of others one for each public header of what is built.
 set(trismooth_headers "${PROJECT_BINARY_DIR}/include/trismooth")
-file(MAKE_DIRECTORY "${trismooth_headers}")
+set(trismooth_public "${PROJECT_BINARY_DIR}/public/trismooth")
+file(MAKE_DIRECTORY "${trismooth_headers}" "${trismooth_public}")
+foreach(folder IN ITEMS base quality smoothing mesh_io mpi pipeline cuda)
+  file(REMOVE_RECURSE "${trismooth_public}/${folder}")
+endforeach()
 foreach(folder IN ITEMS base space quality smoothing mesh_io mpi pipeline paper cuda)
   file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${trismooth_headers}/${folder}" SYMBOLIC)
 endforeach()
 file(CREATE_LINK "${PROJECT_SOURCE_DIR}/python/src" "${trismooth_headers}/python" SYMBOLIC)
-configure_file("${CMAKE_CURRENT_LIST_DIR}/version.h.in" "${trismooth_headers}/version.h" @ONLY)
-configure_file("${CMAKE_CURRENT_LIST_DIR}/trismooth.h" "${trismooth_headers}/trismooth.h" COPYONLY)
+configure_file("${CMAKE_CURRENT_LIST_DIR}/version.h.in" "${trismooth_public}/version.h" @ONLY)
+configure_file("${CMAKE_CURRENT_LIST_DIR}/trismooth.h" "${trismooth_public}/trismooth.h" COPYONLY)
 
 function(trismooth_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} BEFORE PRIVATE "${PROJECT_BINARY_DIR}/include")
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   target_compile_options(
     ${target}
@@ -67,20 +73,31 @@ function(trismooth_library name)
   trismooth_configure(trismooth_${name})
   trismooth_guide_fuzzer(trismooth_${name})
   target_include_directories(
-    trismooth_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    trismooth_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/public> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()
 
-# trismooth_public_headers(<name> <header>...): what others may include, by their paths below trismooth/. These are
-# installed; all other headers are private.
-function(trismooth_public_headers name)
-  list(TRANSFORM ARGN PREPEND "${trismooth_headers}/" OUTPUT_VARIABLE headers)
-  target_sources(trismooth_${name} PUBLIC FILE_SET HEADERS BASE_DIRS "${PROJECT_BINARY_DIR}/include" FILES ${headers})
+# trismooth_public_headers(<header>...): what others may include, by their paths below trismooth/. These are installed; all
+# other headers are private.
+function(trismooth_public_headers)
+  foreach(header IN LISTS ARGN)
+    set(file "${PROJECT_SOURCE_DIR}/${header}")
+    cmake_path(GET header PARENT_PATH folder)
+    if(folder STREQUAL "")
+      set(file "${trismooth_public}/${header}")
+    else()
+      file(MAKE_DIRECTORY "${trismooth_public}/${folder}")
+      file(CREATE_LINK "${file}" "${trismooth_public}/${header}" SYMBOLIC)
+    endif()
+    if(TRISMOOTH_INSTALL)
+      install(FILES "${file}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/trismooth/${folder}")
+    endif()
+  endforeach()
 endfunction()
 
 # Adds to a target that compiles CUDA what its .cu files need: the host's rules once more, for nvcc.
 function(trismooth_configure_cuda target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CUDA_RUNTIME_LIBRARY Static)
-  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
+  target_include_directories(${target} BEFORE PRIVATE "${PROJECT_BINARY_DIR}/include" "${PROJECT_BINARY_DIR}/public")
   target_compile_options(
     ${target}
     PRIVATE # The language level is said by hand: the CMake of Debian 12 does not know the flag of CUDA 13.

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// All public headers of the components that are there. A component whose headers need those of another library (OpenMesh
-/// with Eigen, CUDA) counts where the compiler finds these as well. A program that links one component and wants to be
+/// All public headers of the components that the build has. A component whose headers need those of another library
+/// (OpenMesh with Eigen, CUDA) counts where the compiler finds these as well. A program that links one component and wants to be
 /// compiled fast includes that component's own headers.
 
 #include "trismooth/version.h"
@@ -20,6 +21,8 @@
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/keep_never_worse.h"
+#include "trismooth/smoothing/moving_mesh.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/sliding.h"
@@ -43,7 +46,10 @@
 #endif
 #if __has_include("trismooth/pipeline/pipeline.h")
 #include "trismooth/pipeline/auto_backend.h"
+#include "trismooth/pipeline/gates.h"
 #include "trismooth/pipeline/pipeline.h"
+#include "trismooth/pipeline/report/html_report.h"
+#include "trismooth/pipeline/report/json_report.h"
 #endif
 #if __has_include("trismooth/cuda/backend.h") && __has_include(<cuda_runtime_api.h>)
 #include "trismooth/cuda/backend.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/backend.h"
 
 #include <algorithm>
@@ -15,11 +16,11 @@
 #include "trismooth/base/machine/overwriting.h"
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/cuda/device_follower.h"
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/host_untangling.h"
-#include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/part_offloads.h"
 #include "trismooth/cuda/parts/device_scope.h"
 #include "trismooth/cuda/runtime/host_copy.h"
@@ -28,6 +29,7 @@
 #include "trismooth/cuda/slide/sliding_options.h"
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/cuda/topology/uploaded_constraints.h"
+#include "trismooth/cuda/uploaded_rings.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/errors.h"
@@ -62,17 +64,6 @@ SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, D
   result.timings.transfer_in = timeline.milliseconds(0);
   result.timings.transfer_out = way_back.milliseconds(0);
   return result;
-}
-
-/// One-rings of the host on the device.
-DeviceRings uploaded(HostCopier& copier, const OneRings& rings) {
-  constexpr std::int64_t grain = 32768;
-  BulkVector<std::uint32_t> offsets(rings.offsets.size());
-  copier.workers().for_blocks(std::ssize(offsets), grain, [&](std::int64_t begin, std::int64_t end) {
-    std::transform(rings.offsets.begin() + begin, rings.offsets.begin() + end, offsets.begin() + begin,
-                   [](std::int64_t offset) { return static_cast<std::uint32_t>(offset); });
-  });
-  return {copier.uploaded(std::span<const std::uint32_t>(offsets)), copier.uploaded(std::span(rings.neighbours))};
 }
 
 class RingSmoother final : public PreparedSmoother {
@@ -130,8 +121,7 @@ class RingSmoother final : public PreparedSmoother {
 
  private:
   static std::size_t with_room_for(const OneRings& rings, const SmoothingOptions& options, std::size_t vertices) {
-    const MeshSize size{rings.vertex_count(), rings.vertex_count(), std::ssize(rings.neighbours)};
-    require_memory(memory_need(size, options) + vertices * sizeof(Point2<double>));
+    require_room_for(rings, options);
     return vertices;
   }
 
@@ -216,6 +206,31 @@ class SmootherOnDevice final : public PreparedSmoother {
   std::unique_ptr<PreparedSmoother> smoother_;
 };
 
+/// A follower on one device, whichever is current.
+class FollowerOnDevice final : public Follower {
+ public:
+  FollowerOnDevice(int device, std::unique_ptr<Follower> follower) : device_(device), follower_(std::move(follower)) {}
+  ~FollowerOnDevice() override { after_.begin(device_); }
+
+  void follow(std::span<Point2<double>> points, Storage storage, MovingStart start, FollowResult& result) override {
+    const DeviceScope scope(device_);
+    follower_->follow(points, storage, start, result);
+  }
+  void go_on_from(std::vector<Point2<double>> points) override {
+    const DeviceScope scope(device_);
+    follower_->go_on_from(std::move(points));
+  }
+  std::vector<Point2<double>> points() const override {
+    const DeviceScope scope(device_);
+    return follower_->points();
+  }
+
+ private:
+  DeviceAtEnd after_;  ///< the last to go
+  int device_;
+  std::unique_ptr<Follower> follower_;
+};
+
 /// On a device; none: on whichever is current.
 class CudaBackend final : public Backend {
  public:
@@ -255,6 +270,14 @@ class CudaBackend final : public Backend {
       return cpu_backend().prepare(mesh, triangles, local, options);
     }
     return on_device(std::make_unique<RingSmoother>(mesh, triangles, local, options));
+  }
+
+  std::unique_ptr<Follower> follower(const MeshAtRest& mesh, MeshRings rings,
+                                     const SmoothingOptions& options) const override {
+    const DeviceScope scope(device_);
+    require_device();
+    std::unique_ptr<Follower> follower = std::make_unique<DeviceFollower>(mesh, rings, options);
+    return device_ ? std::make_unique<FollowerOnDevice>(*device_, std::move(follower)) : std::move(follower);
   }
 
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,

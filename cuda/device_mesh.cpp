@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/device_mesh.h"
 
 #include <algorithm>
@@ -9,8 +10,10 @@
 #include <utility>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/moved_from.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
@@ -24,6 +27,7 @@
 #include "trismooth/cuda/runtime/device_pointer.h"
 #include "trismooth/cuda/slide/sliding_options.h"
 #include "trismooth/cuda/topology/device_topology.h"
+#include "trismooth/smoothing/limited.h"
 
 namespace trismooth::cuda {
 
@@ -82,6 +86,8 @@ class Plan::Implementation {
     context_.synchronize();
     return result;
   }
+
+  const SmoothingOptions& options() const { return options_; }
 
   std::vector<std::uint8_t> fixed() const {
     return download(context_, topology_.fixed(), static_cast<std::size_t>(vertex_count_));
@@ -171,9 +177,12 @@ class Plan::Implementation {
     if (const std::int32_t vertex = extent_.extent().first_not_finite; vertex >= 0) {
       throw MeshError("vertex " + std::to_string(vertex) + " has a coordinate that is not finite");
     }
-    if (!std::exchange(has_found_layers_, true)) {
+    CallLimit::look();
+    if (!has_found_layers_) {
       find_layers(local.data());
+      has_found_layers_ = true;
     }
+    CallLimit::look();
     if (options_.measures_shape() || options_.untangles()) {
       fixed_quotient = topology_.smallest_fixed_quotient(local.data());
     }
@@ -219,6 +228,9 @@ class Plan::Implementation {
 
 Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream) {
   options.validate();
+  if (options.proposal) {
+    throw std::invalid_argument("a proposal is a function of the host: smooth() on the CPU takes it");
+  }
   check_mesh_size(mesh.vertex_count, mesh.triangle_count);
   const Sliding& slide = mesh.constraints.slide;
   slide.validate();
@@ -241,40 +253,37 @@ Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t
   });
   const MeshSize size{mesh.vertex_count, mesh.vertex_count, 3 * std::int64_t{mesh.triangle_count}};
   require_memory(memory_need(size, options) + topology_memory_need(mesh.vertex_count, mesh.triangle_count));
-  implementation_ = std::make_unique<Implementation>(mesh, options, stream);
+  implementation_ = planned(options, [&] { return std::make_unique<Implementation>(mesh, options, stream); });
 }
 
 Plan::Plan(Plan&&) noexcept = default;
 Plan& Plan::operator=(Plan&&) noexcept = default;
 Plan::~Plan() = default;
 
-Plan::Implementation& Plan::implementation() const {
-  if (implementation_ == nullptr) {
-    throw std::logic_error("this plan has been moved from");
-  }
-  return *implementation_;
-}
-
 SmoothingResult Plan::smooth(double* xy, Storage storage) {
-  return implementation().smooth(xy, storage);
+  Implementation& plan = not_moved_from(implementation_);
+  return limited(plan.options(), "cuda", [&] { return plan.smooth(xy, storage); });
 }
 
 SmoothingResult Plan::smooth(float* xy) {
-  return implementation().smooth(xy);
+  Implementation& plan = not_moved_from(implementation_);
+  return limited(plan.options(), "cuda", [&] { return plan.smooth(xy); });
 }
 
 std::vector<std::uint8_t> Plan::fixed() const {
-  return implementation().fixed();
+  return not_moved_from(implementation_).fixed();
 }
 
 SmoothingResult smooth(const DeviceMesh& mesh, double* xy, const SmoothingOptions& options, cudaStream_t stream) {
   require_points(xy, mesh.vertex_count);  // before all the work of the analysis
-  return Plan(mesh, options, stream).smooth(xy);
+  options.validate();
+  return limited(options, "cuda", [&] { return Plan(mesh, options, stream).smooth(xy); });
 }
 
 SmoothingResult smooth(const DeviceMesh& mesh, float* xy, const SmoothingOptions& options, cudaStream_t stream) {
   require_points(xy, mesh.vertex_count);
-  return Plan(mesh, options, stream).smooth(xy);
+  options.validate();
+  return limited(options, "cuda", [&] { return Plan(mesh, options, stream).smooth(xy); });
 }
 
 }  // namespace trismooth::cuda

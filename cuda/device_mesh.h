@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -55,7 +56,6 @@ class Plan {
 
  private:
   class Implementation;
-  Implementation& implementation() const;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/device_smoother.h"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/packing/coordinates.h"
@@ -50,6 +52,16 @@ class EngineSmoother final : public DeviceSmoother {
 
   void slide_on(Slidable slidable, std::vector<std::uint8_t> reversed) override {
     slides_.allow(context_, order_, std::move(slidable), std::move(reversed));
+  }
+
+  void aim_at(const Point2<double>* stored, const LocalFrame* frame, int exponent) override {
+    if (engine_) {
+      with_engine([&](auto& engine) {
+        const auto [first, second] = engine.input();
+        enter_frame_packed(context_, stored, order_, frame, before_.data(), first, second);
+        engine.aim_at_input(exponent);
+      });
+    }
   }
 
   bool has_free_vertices() const override { return engine_.has_value(); }
@@ -99,6 +111,7 @@ class EngineSmoother final : public DeviceSmoother {
   /// `slides`: unless nothing is to. Where that is given up the coordinates are as they were.
   SmoothingResult smoothed(Point2<double>* stored, const LocalFrame* frame, Storage storage, double fixed_quotient,
                            bool slides) {
+    CallLimit::look();
     SmoothingResult result;
     result.backend = "cuda";
     result.device = device_;
@@ -149,7 +162,7 @@ class EngineSmoother final : public DeviceSmoother {
       result.stop_reason = StopReason::quality_target;
       return;
     }
-    SweepControl(options_, 0, result).add(SweepTally<T>{}, options_.measures_shape() ? shape : no_target, 0);
+    SweepControl(options_, 0, result).add(SweepTally<T>{}, options_.measures_shape() ? shape : no_target, std::nullopt);
   }
 
   /// Queues the way to the working positions from those that are stored.
@@ -157,7 +170,7 @@ class EngineSmoother final : public DeviceSmoother {
     with_engine([&](auto& engine) {
       const auto [first, second] = engine.input();
       enter_frame_packed(context_, ending.stored, order_, ending.input.frame, before_.data(), first, second);
-      engine.begin();
+      engine.begin(ending.input.frame);
     });
     ++result.kernel_launches;
   }
@@ -166,23 +179,25 @@ class EngineSmoother final : public DeviceSmoother {
   /// sweeps: should they not have ended the run, it does nothing, and is queued again. Else it comes when the host
   /// knows of the end, as it does where the caller may have said stop before that.
   void run(double fixed_quotient, Ending& ending, SmoothingResult& result) {
-    const auto start = Clock::now();
     const auto seconds_since = [](Clock::time_point moment) {
       return std::chrono::duration<double>(Clock::now() - moment).count();
     };
     LoopRules loop = rules(fixed_quotient);
     LoopState& state = host_record_.state;
     state = LoopState{};
-    if (options_.target_quality && min_shape_now(loop, result) >= *options_.target_quality) {
+    SweepControl control(options_, order_.free_count(), result);
+    const bool is_reached = options_.target_quality && min_shape_now(loop, result) >= *options_.target_quality;
+    if (is_reached) {
       result.stop_reason = StopReason::quality_target;
+    }
+    if (is_reached || control.is_over()) {
       end_now(ending, result);
       return;
     }
     const bool may_follow =
         !options_.progress && with_engine([](const auto& engine) { return engine.may_be_followed; });
-    const bool watched = static_cast<bool>(options_.progress);
+    const bool watched = options_.progress || options_.cancel;
     SweepBatches batches(RunRecord::most_sweeps, watched, options_.time_limit_seconds);
-    SweepControl control(options_, order_.free_count(), result);
     for (bool is_over = false; !is_over;) {
       const auto launched = Clock::now();
       // What comes behind the last sweep is not queued behind a stage that is not the last.
@@ -197,19 +212,19 @@ class EngineSmoother final : public DeviceSmoother {
       const bool is_repeating = state.stop == LoopState::repeating;
       const std::int64_t last = result.sweeps + state.sweeps;
       // The clock is looked at behind the last sweep that was made; where all further ones are known, not at all.
-      is_over = add_sweeps(control, loop, is_repeating ? 0 : seconds_since(start));
+      is_over = add_sweeps(control, loop, is_repeating ? std::nullopt : std::optional(control.seconds()));
       while (is_repeating && !is_over) {
         is_over = control.add_again();
       }
       if (!is_over) {
-        batches.adapt(seconds_since(launched), seconds_since(start));
+        batches.adapt(seconds_since(launched), control.seconds());
         continue;
       }
       // The last sweep that the caller was told of is not the last that was made, or `current` not where it left us.
       if (result.stop_reason == StopReason::cancelled && (is_repeating || result.sweeps != last)) {
         sweep_again(loop, ending, result);
       }
-      if (!follows || result.stop_reason == StopReason::time_limit) {
+      if (!follows || !ran_to_its_end(result.stop_reason)) {
         end_now(ending, result);
       }
     }
@@ -230,7 +245,7 @@ class EngineSmoother final : public DeviceSmoother {
       const auto left = std::min<std::int64_t>(result.sweeps - again.sweeps, RunRecord::most_sweeps);
       queue_sweeps(control, static_cast<std::int32_t>(left), loop, result);
       finish_sweeps(control, result);
-      add_sweeps(control, loop, 0);
+      add_sweeps(control, loop, std::nullopt);
     }
   }
 
@@ -340,13 +355,13 @@ class EngineSmoother final : public DeviceSmoother {
 
   /// Tells the control of the sweeps of a launch, up to one that the run is over with: true then. `seconds`: since the
   /// run began, when the last one was made.
-  bool add_sweeps(SweepControl& control, const LoopRules& loop, double seconds) const {
+  bool add_sweeps(SweepControl& control, const LoopRules& loop, std::optional<double> seconds) const {
     const std::int32_t count = host_record_.state.sweeps;
     bool is_over = false;
     for (std::int32_t i = 0; i < count && !is_over; ++i) {
       const SweepSums& sums = host_record_.sums[static_cast<std::size_t>(i)];
       is_over = control.add(tally_of<T>(sums), loop.measures_shape ? min_shape_after(sums, loop) : no_target,
-                            i + 1 == count ? seconds : 0);
+                            i + 1 == count ? seconds : std::nullopt);
     }
     return is_over;
   }

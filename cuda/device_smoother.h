@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -30,6 +31,10 @@ class DeviceSmoother {
   /// Reads the sizes that the options ask for, if they do: before every smooth(), and where they fit. Throws
   /// std::invalid_argument as said at MeanRatioOptions::target_lengths. `fixed`: as MeshRings::fixed.
   virtual void read_sizes(std::span<const std::uint8_t> fixed) = 0;
+
+  /// PreparedSmoother::aim_at(), for stored coordinates on the device; `exponent`: that of their local frame. Throws
+  /// DeviceError.
+  virtual void aim_at(const Point2<double>* stored, const LocalFrame* frame, int exponent) = 0;
 
   /// Has vertices slide from now on; see MeshRings::slidable. `reversed`: as MeshRings::reversed, of its triangles.
   /// Waits for the device.

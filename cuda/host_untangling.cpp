@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/host_untangling.h"
 
 #include <cstddef>
@@ -31,10 +32,15 @@ HostUntangling::HostUntangling(std::vector<std::uint8_t> fixed, std::span<const 
       options_(on_host(options)),
       slidable_(std::move(slidable)) {}
 
+void HostUntangling::aim_at(std::span<const Point2<double>> reference, const LocalFrame& frame) {
+  reference_.assign(reference.begin(), reference.end());
+  frame_of_reference_ = frame;
+}
+
 SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame) {
   Workers workers(options_.threads);
   if (smoother_ == nullptr) {
-    const LocalPoints local = entered(frame, points);
+    const LocalPoints local = reference_.empty() ? entered(frame, points) : entered(frame_of_reference_, reference_);
     Constraints constraints;
     constraints.fixed = fixed_;
     MeshRings mesh = find_mesh_rings(local.points, triangles_, constraints, workers);
@@ -42,6 +48,10 @@ SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage
     mesh.slidable = slidable_;
     reversed_ = mesh.reversed;
     smoother_ = cpu_backend().prepare(mesh, triangles_, local.points, options_);
+    if (!reference_.empty()) {
+      smoother_->aim_at(reference_, frame_of_reference_);
+      reference_ = {};
+    }
   }
   SmoothingResult result = smoother_->smooth(points, storage, frame);
   count_invalid(

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,9 @@ class HostUntangling {
   HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles, const SmoothingOptions& options,
                  Slidable slidable = {});
 
+  /// See PreparedSmoother::aim_at(): before the first smooth(). The reference orients the mesh then.
+  void aim_at(std::span<const Point2<double>> reference, const LocalFrame& frame);
+
   /// As PreparedSmoother::smooth(), with what is invalid counted. The first points orient the mesh.
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage, const LocalFrame& frame);
 
@@ -37,6 +41,8 @@ class HostUntangling {
   std::vector<Triangle> triangles_;
   SmoothingOptions options_;
   Slidable slidable_;
+  std::vector<Point2<double>> reference_;  ///< what is aimed at; empty: the points of each call
+  LocalFrame frame_of_reference_;
   std::unique_ptr<PreparedSmoother> smoother_;
   std::vector<std::uint8_t> reversed_;  ///< as MeshRings::reversed, of the mesh that it has
 };

@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/format_choice.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "trismooth/base/text/suggestion.h"
@@ -148,6 +151,9 @@ FileFormat output_format(const std::filesystem::path& path, std::optional<FileFo
     throw WriteError(path, "nothing is written compressed but by gzip (.gz); leave out '" + path.extension().string() +
                                "' and compress the file then");
   }
+  if (std::error_code error; std::filesystem::is_directory(path, error)) {
+    throw WriteError(path, "is a folder");
+  }
   const std::vector<FileFormat> named = formats_of(path);
   std::optional<FileFormat> format = told;
   if (!named.empty()) {
@@ -168,7 +174,8 @@ FileFormat output_format(const std::filesystem::path& path, std::optional<FileFo
   if (const auto unread = unread_format_of(path)) {
     throw WriteError(path, describe_unwritten(*unread));
   }
-  throw WriteError(path, describe_unknown_extension(path) + "; known are " + titled_format_list());
+  throw WriteError(path,
+                   describe_unknown_extension(path) + "; --format NAME tells it; known are " + titled_format_list());
 }
 
 }  // namespace trismooth

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mpi/communicator.h"
 
 #include <algorithm>
@@ -57,6 +58,17 @@ Failure failure_of(const std::exception_ptr& error, std::span<const ErrorKind> k
     return {static_cast<int>(kind - kinds.begin()), kind != kinds.end() ? kind->message_of(e) : e.what()};
   } catch (...) {
     return {static_cast<int>(kinds.size()), "an exception that is no std::exception"};
+  }
+}
+
+/// Whose memory was used up, or else `rank`.
+int rank_of_memory(const std::exception_ptr& error, int rank) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const OutOfMemory& known) {
+    return known.rank();
+  } catch (...) {
+    return rank;
   }
 }
 
@@ -179,7 +191,10 @@ void Communicator::on_all(const std::function<void()>& work, const ErrorKinds& e
   }
   check(MPI_Bcast(&failure.kind, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
   if (failure.kind == Failure::of_memory) {
-    throw KnownToAll(size_ > 1 ? std::make_exception_ptr(OutOfMemory(failed))
+    // Of an error that has been agreed on before it is known whose memory it was.
+    int whose = failed == rank_ ? rank_of_memory(error, rank_) : failed;
+    check(MPI_Bcast(&whose, 1, MPI_INT, failed, communicator_), "MPI_Bcast");
+    throw KnownToAll(size_ > 1 ? std::make_exception_ptr(OutOfMemory(whose))
                                : std::make_exception_ptr(std::bad_alloc()));
   }
   int length = static_cast<int>(failure.message.size());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mpi/overlap_smoother.h"
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/invalid_triangles.h"
+#include "trismooth/smoothing/limited.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/one_rings.h"
@@ -30,6 +32,9 @@ void require_supported(const SmoothingOptions& options, const Constraints& const
     throw std::invalid_argument(
         "vertices do not slide in a mesh in pieces: have it gathered on one rank (Gather::where_needed), or set slide "
         "to off");
+  }
+  if (options.proposal) {
+    throw std::invalid_argument("a proposal names vertices by the caller's numbers, which a mesh in pieces has not");
   }
   if (options.order == Order::unordered || options.execution != Execution::resident) {
     throw std::invalid_argument(
@@ -87,16 +92,16 @@ std::unique_ptr<OverlapSmoother> make_overlap_smoother(std::shared_ptr<const Com
 }
 
 OverlapSmoother::OverlapSmoother(std::shared_ptr<const Communicator> communicator, Overlap overlap,
-                                 const SmoothingOptions& options, const Sliding& slide, Gather gather, Owners owners)
+                                 const SmoothingOptions& options, Sliding slide, Gather gather, Owners owners)
     : communicator_(std::move(communicator)),
       options_(options),
-      slide_(slide),
+      slide_(std::move(slide)),
       gather_(gather),
       is_gathered_(owners == Owners::first),
       overlap_(std::move(overlap)) {
   const Communicator& ranks = *communicator_;
   ranks.on_all([&] { workers_.emplace(options_.threads); });
-  has_lengths_ = ranks.any(options.method == Method::mean_ratio && !options.mean_ratio.target_lengths.empty());
+  has_lengths_ = ranks.any(!options.mean_ratio.target_lengths.empty());
   if (has_lengths_) {
     // Never empty: that would say that no sizes are asked for.
     lengths_.assign(std::max<std::size_t>(overlap_.ids.size(), 1), 1.0);
@@ -106,7 +111,7 @@ OverlapSmoother::OverlapSmoother(std::shared_ptr<const Communicator> communicato
   part.number = ranks.rank();
   part.count = ranks.size();
   part.place_on_machine = ranks.place_on_machine();
-  part.has_progress = ranks.any(static_cast<bool>(options.progress));
+  part.has_progress = ranks.any(options.progress || options.cancel);
   ghosts_.emplace(part);
   points_.emplace(overlap_, *ghosts_, ranks, *workers_);
   ranks.on_all([&] {
@@ -152,16 +157,23 @@ void OverlapSmoother::find_layers(std::span<const Point2<double>> local, std::sp
 }
 
 SmoothingResult OverlapSmoother::smooth(const PointView& points, Storage storage) {
+  CallLimit limit(options_.time_limit_seconds, used_options().cancel, CallLimit::begin_of_current());
+  limit.lift();  // ranks leave together: behind a sweep
   const Storage stored = points_->storage_of(points, storage);
   BulkVector<Point2<double>> mine = points_->gathered(points);
   points_->require_one_height(points, mine, fixed_);
   if (has_lengths_) {
     // In place: the smoother knows them by where they are.
-    std::ranges::copy(points_->target_lengths(options_.mean_ratio.target_lengths, fixed_, options_.aims_at_sizes()),
-                      lengths_.begin());
+    std::ranges::copy(
+        points_->target_lengths(options_.mean_ratio.target_lengths.listed(), fixed_, options_.aims_at_sizes()),
+        lengths_.begin());
   }
   const LocalFrame frame = shared_frame(mine, fixed_, *communicator_);
   make_ready(frame, mine);
+  if (const std::optional<CallEnd> end = agreed_end(limit)) {
+    rethrow_from_callbacks();
+    return ended_before_sweeps(*end, backend_of(options_).name());
+  }
   SmoothingResult result = smoothed(mine, stored, frame);
   result.layers = layers_;
   if (result.reverted_vertices > 0) {
@@ -243,6 +255,7 @@ void OverlapSmoother::colour(const OneRings& rings) {
 SmoothingOptions OverlapSmoother::used_options() {
   SmoothingOptions used = options_;
   used.mean_ratio.target_lengths = lengths_;
+  // What they throw waits until all ranks are there.
   if (options_.progress) {
     used.progress = [this](const SweepRecord& record) {
       try {
@@ -250,6 +263,16 @@ SmoothingOptions OverlapSmoother::used_options() {
       } catch (...) {
         callback_error_ = std::current_exception();
         return Progress::stop;
+      }
+    };
+  }
+  if (options_.cancel) {
+    used.cancel = [this] {
+      try {
+        return options_.cancel();
+      } catch (...) {
+        callback_error_ = std::current_exception();
+        return true;
       }
     };
   }
@@ -272,12 +295,28 @@ SmoothingResult OverlapSmoother::smoothed(std::span<Point2<double>> mine, Storag
     });
     result = smoothed_gathered(mine, stored);
   }
+  rethrow_from_callbacks();
+  return result;
+}
+
+std::optional<CallEnd> OverlapSmoother::agreed_end(CallLimit& limit) const {
+  const bool may_be_up = options_.time_limit_seconds < std::numeric_limits<double>::infinity();
+  if (!may_be_up && !overlap_.part.has_progress) {
+    return std::nullopt;
+  }
+  const std::optional<CallEnd> own = limit.end();
+  if (communicator_->any(own == CallEnd::time_is_up)) {
+    return CallEnd::time_is_up;
+  }
+  return communicator_->any(own == CallEnd::cancelled) ? std::optional(CallEnd::cancelled) : std::nullopt;
+}
+
+void OverlapSmoother::rethrow_from_callbacks() {
   communicator_->on_all([&] {
     if (callback_error_) {
       std::rethrow_exception(std::exchange(callback_error_, nullptr));
     }
   });
-  return result;
 }
 
 SmoothingResult OverlapSmoother::smoothed_in_pieces(std::span<Point2<double>> mine, Storage stored,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point_view.h"
 #include "trismooth/base/storage.h"
@@ -38,7 +40,7 @@ class OverlapSmoother {
   /// `options`: see agreed_options(). `slide`: what Constraints::slide was where rank 0 owns all; lines and links are
   /// the overlap's. Collective.
   OverlapSmoother(std::shared_ptr<const Communicator> communicator, Overlap overlap, const SmoothingOptions& options,
-                  const Sliding& slide, Gather gather, Owners owners);
+                  Sliding slide, Gather gather, Owners owners);
   OverlapSmoother(const OverlapSmoother&) = delete;
   OverlapSmoother& operator=(const OverlapSmoother&) = delete;
   ~OverlapSmoother() = default;
@@ -60,15 +62,15 @@ class OverlapSmoother {
 
  private:
   const TriangleComponents& components() const { return topology_ ? *topology_ : components_; }
-  /// Prepares the sweeps where the orientation that these points give the mesh is new.
   /// How many vertices are free in the whole mesh. Collective.
   void count_free();
   /// Holds layers, and finds what may slide beside them. Collective.
   void find_layers(std::span<const Point2<double>> local, std::span<const std::uint8_t> reversed);
+  /// Prepares the sweeps where the orientation that these points give the mesh is new. Collective.
   void make_ready(const LocalFrame& frame, std::span<const Point2<double>> mine);
   /// Colours the free vertices as colour_free_vertices() does it in the whole mesh.
   void colour(const OneRings& rings);
-  /// The caller's options for the rank's own numbers; an exception of a progress callback stops all ranks.
+  /// The caller's options for the rank's own numbers; an exception of a callback stops all ranks.
   SmoothingOptions used_options();
   SmoothingResult smoothed(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
   SmoothingResult smoothed_in_pieces(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
@@ -76,6 +78,10 @@ class OverlapSmoother {
   SmoothingResult smoothed_here(std::span<Point2<double>> mine, Storage stored, const LocalFrame& frame);
   /// By rank 0, where that was not known before: it gets all then.
   SmoothingResult smoothed_gathered(std::span<Point2<double>> mine, Storage stored);
+  /// Why the call is over, if it is on any rank. Collective.
+  std::optional<CallEnd> agreed_end(CallLimit& limit) const;
+  /// Throws on all ranks what a callback has thrown on one. Collective.
+  void rethrow_from_callbacks();
 
   std::shared_ptr<const Communicator> communicator_;
   SmoothingOptions options_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mpi/plan.h"
 
 #include <memory>
@@ -5,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trismooth/base/moved_from.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/mpi/overlap_smoother.h"
 
@@ -49,25 +51,18 @@ Plan& Plan::operator=(Plan&&) noexcept = default;
 Plan::~Plan() = default;
 
 SmoothingResult Plan::smooth(const PointView& points, Storage storage) {
-  OverlapSmoother& smoother = *implementation().smoother;
+  OverlapSmoother& smoother = *not_moved_from(implementation_).smoother;
   return smoother.communicator().together([&] { return smoother.smooth(points, storage); });
 }
 
-const Plan::Implementation& Plan::implementation() const {
-  if (implementation_ == nullptr) {
-    throw std::logic_error("this plan has been moved from");
-  }
-  return *implementation_;
-}
-
 Traffic Plan::traffic() const {
-  return implementation().smoother->traffic();
+  return not_moved_from(implementation_).smoother->traffic();
 }
 std::int64_t Plan::own_vertices() const {
-  return implementation().smoother->own_vertices();
+  return not_moved_from(implementation_).smoother->own_vertices();
 }
 std::int64_t Plan::ghost_vertices() const {
-  return implementation().smoother->ghost_vertices();
+  return not_moved_from(implementation_).smoother->ghost_vertices();
 }
 
 }  // namespace trismooth::mpi

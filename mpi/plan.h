@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -81,7 +82,6 @@ class [[nodiscard]] Plan {
 
  private:
   class Implementation;
-  [[nodiscard]] const Implementation& implementation() const;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mpi/same_options.h"
 
 #include <bit>
@@ -19,6 +20,7 @@ std::vector<OptionValue> option_values(const SmoothingOptions& options, const Sl
       {"evaluation", static_cast<std::int64_t>(options.evaluation)},
       {"size_weight", bits(options.mean_ratio.size_weight)},
       {"power", options.mean_ratio.power},
+      {"steady", options.mean_ratio.steady ? 1 : 0},
       {"target", static_cast<std::int64_t>(options.mean_ratio.target)},
       {"guard", options.guard ? 1 : 0},
       {"untangle", static_cast<std::int64_t>(options.untangle)},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/gates.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/base/text/suggestion.h"
 #include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/pipeline/deformation.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/size_ratio.h"
 
@@ -28,6 +30,8 @@ constexpr std::array<std::pair<std::string_view, double MetricSummary::*>, 5> st
      {"acceptable_", &MetricSummary::acceptable_fraction}}};
 
 constexpr std::string_view invalid_quadratic = "invalid_quadratic";
+constexpr std::string_view crossings = "crossings";
+constexpr std::string_view overlaps = "overlaps";
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t";
@@ -120,6 +124,8 @@ std::vector<std::string> gate_names() {
                                  "inverted",
                                  "degenerate",
                                  std::string(invalid_quadratic),
+                                 std::string(crossings),
+                                 std::string(overlaps),
                                  std::string(info(Metric::min_angle).name),
                                  std::string(info(Metric::max_angle).name),
                                  std::string(size_ratio_info.name)};
@@ -133,17 +139,21 @@ std::vector<std::string> gate_names() {
   return names;
 }
 
-double gate_value(std::string_view name, const QualityReport& report,
-                  const std::optional<QuadraticQuality>& quadratic) {
+double gate_value(std::string_view name, const QualityReport& report, const std::optional<QuadraticQuality>& quadratic,
+                  const DeformedStep* step) {
+  if (name == crossings || name == overlaps) {
+    return step == nullptr ? std::numeric_limits<double>::quiet_NaN()
+                           : static_cast<double>(name == crossings ? step->crossings : step->overlaps);
+  }
   if (const auto value = find_value(name, report, quadratic)) {
     return *value;
   }
   const std::string prefixes = list_text(statistics, [](const auto& statistic) { return statistic.first; });
-  throw std::invalid_argument(
-      fmt::format("unknown metric '{}'; valid are triangles, inverted, degenerate, {}, min_angle, max_angle, {}, and "
-                  "one of {} before one of {}, {}{}",
-                  name, invalid_quadratic, size_ratio_info.name, prefixes, metric_names(), size_ratio_info.name,
-                  did_you_mean(name, gate_names())));
+  throw std::invalid_argument(fmt::format(
+      "unknown metric '{}'; valid are triangles, inverted, degenerate, {}, {}, {}, min_angle, max_angle, {}, "
+      "and one of {} before one of {}, {}{}",
+      name, invalid_quadratic, crossings, overlaps, size_ratio_info.name, prefixes, metric_names(),
+      size_ratio_info.name, did_you_mean(name, gate_names())));
 }
 
 bool needs_size_ratio(const Gate& gate) {
@@ -169,10 +179,27 @@ Gate parse_gate(std::string_view text) {
   return gate;
 }
 
-GateOutcome check_gate(const Gate& gate, const QualityReport& report,
-                       const std::optional<QuadraticQuality>& quadratic) {
-  const double value = gate_value(gate.name, report, quadratic);
+GateOutcome check_gate(const Gate& gate, const QualityReport& report, const std::optional<QuadraticQuality>& quadratic,
+                       const DeformedStep* step) {
+  const double value = gate_value(gate.name, report, quadratic, step);
   return {gate, value, holds(value, gate.comparison, gate.bound)};
+}
+
+bool GateOutcome::is_worse_than(const GateOutcome& other) const {
+  if (std::isnan(value) || std::isnan(other.value)) {
+    return std::isnan(value) && !std::isnan(other.value);
+  }
+  switch (gate.comparison) {
+    case Comparison::at_least:
+    case Comparison::above:
+      return value < other.value;
+    case Comparison::at_most:
+    case Comparison::below:
+      return value > other.value;
+    case Comparison::equal:
+      break;
+  }
+  return std::abs(value - gate.bound) > std::abs(other.value - gate.bound);
 }
 
 std::string gate_text(const Gate& gate) {

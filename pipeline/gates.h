@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,8 @@
 #include "trismooth/quality/quality_report.h"
 
 namespace trismooth {
+
+struct DeformedStep;
 
 /// How a gate compares.
 enum class Comparison : std::uint8_t { at_least, at_most, above, below, equal };
@@ -41,24 +44,30 @@ struct GateOutcome {
   Gate gate;
   double value = 0;  ///< of the mesh; NaN where it is not defined, as in a mesh without triangles
   bool passed = false;
+
+  /// Of two meshes that the same is demanded of, whether this one is further from it.
+  bool is_worse_than(const GateOutcome& other) const;
 };
 
 /// Every name that a gate may have: triangles, inverted, degenerate, invalid_quadratic, min_angle and max_angle (the
 /// smallest and the largest angle of the mesh), size_ratio (the largest), and for each metric, size_ratio too, min_M,
-/// mean_M, max_M, stddev_M and acceptable_M (the acceptable fraction, 0 to 1).
+/// mean_M, max_M, stddev_M and acceptable_M (the acceptable fraction, 0 to 1). Of a mesh that has followed its boundary
+/// also crossings and overlaps.
 std::vector<std::string> gate_names();
 
 /// Whether it takes a report that has the size ratio (PipelineOptions::size_ratio).
 bool needs_size_ratio(const Gate& gate);
 
 /// The value of that name in the report, NaN where it has none; invalid_quadratic is that of `quadratic`, and 0 for a
-/// mesh without quadratic triangles. Throws std::invalid_argument for a name that is not one of gate_names().
+/// mesh without quadratic triangles; crossings and overlaps are those of `step`, which may be null: then there are none
+/// to know of. Throws std::invalid_argument for a name that is not one of gate_names().
 double gate_value(std::string_view name, const QualityReport& report,
-                  const std::optional<QuadraticQuality>& quadratic = std::nullopt);
+                  const std::optional<QuadraticQuality>& quadratic = std::nullopt, const DeformedStep* step = nullptr);
 
-/// Whether the report meets the gate. A value that is not a number meets none.
+/// Whether the report meets the gate, with what gate_value() takes. A value that is not a number meets none.
 GateOutcome check_gate(const Gate& gate, const QualityReport& report,
-                       const std::optional<QuadraticQuality>& quadratic = std::nullopt);
+                       const std::optional<QuadraticQuality>& quadratic = std::nullopt,
+                       const DeformedStep* step = nullptr);
 
 /// "min_shape >= 0.3": the demand.
 std::string gate_text(const Gate& gate);

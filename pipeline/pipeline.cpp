@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/pipeline.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <future>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -62,6 +64,9 @@ class DocumentRun {
   /// is not null, gets those that the options want.
   PipelineResult run_on(MeshDocument& document, AddedArrays* annotations = nullptr) {
     const PipelineOptions& options = run_.options;
+    if (options.deformation) {
+      throw std::invalid_argument("deformation: is for run_pipeline(); of points in memory MovingMesh has them follow");
+    }
     const std::vector<double> points = document.points;
     const std::vector<DataArray> point_arrays = document.point_arrays;
     mesh_.take(std::move(document));
@@ -96,9 +101,23 @@ class DocumentRun {
 
  private:
   PipelineResult finish() {
-    stages_.check_and_smooth();
-    stages_.write();
+    if (run_.options.deformation) {
+      follow_boundary();
+    } else {
+      stages_.check_and_smooth();
+      stages_.write();
+    }
     return std::move(run_.result);
+  }
+
+  void follow_boundary() {
+    stages_.check();
+    Deformer& deformer = mesh_.deform();
+    while (!deformer.is_done()) {
+      stages_.smooth();
+      deformer.step_checked();
+      stages_.write();
+    }
   }
 
   DocumentMesh mesh_;

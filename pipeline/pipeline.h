@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/deformation.h"
 #include "trismooth/pipeline/file_groups.h"
 #include "trismooth/pipeline/held_vertices.h"
 #include "trismooth/pipeline/moving_fields.h"
@@ -84,6 +86,11 @@ struct PipelineOptions {
   /// Patterns of the names of point arrays to interpolate: `*` stands for any characters, `?` for one. Empty: all,
   /// where `fields` says so.
   std::vector<std::string> field_arrays;
+  /// Where the boundary goes: the mesh follows it, in place of being smoothed where it is. `smoothing` is as
+  /// moving_options() has it then. For run_pipeline() and an output; without sliding, sizes, map, projection, merged
+  /// corners, values that follow, and a limit of time, which would leave the mesh behind its boundary. Absent: the
+  /// boundary stays.
+  std::optional<Deformation> deformation;
   /// Where a mesh is smoothed that lies in no plane. The third coordinate of vertices that move is interpolated then,
   /// unless `fields` are kept. Absent: such a mesh is refused.
   std::optional<Projection> project;
@@ -181,9 +188,11 @@ struct PipelineResult {
   std::optional<SizeFit> size_fit_before;  ///< to the sizes asked for; absent where none were
   std::optional<SizeFit> size_fit_after;   ///< of the result; absent where size_fit_before is, or nothing was smoothed
   std::vector<InterpolatedField> fields;   ///< point arrays whose values followed the mesh
-  std::vector<std::string> region_names;   ///< each region's value in the file; of several arrays, "1, 7"
-  std::vector<RegionArea> areas;           ///< of each region, where vertices may slide; of all triangles
-                                           ///< together where there are no regions
+  /// Where the mesh followed its boundary: `after`, `smoothing` and all else of a result are of the worst step then.
+  std::optional<DeformationResult> deformation;
+  std::vector<std::string> region_names;      ///< each region's value in the file; of several arrays, "1, 7"
+  std::vector<RegionArea> areas;              ///< of each region, where vertices may slide; of all triangles
+                                              ///< together where there are no regions
   std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
   std::vector<RegionQuality> regions_after;   ///< of the result; empty also where nothing was smoothed
   std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates x, y, z as float64

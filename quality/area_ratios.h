@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,7 @@ AreaRatios area_ratios(const TriangleView& before, const TriangleView& after, in
 using AddUpCounts = std::function<void(std::vector<std::int64_t>&)>;
 
 /// size_change() from these ratios and those that others have. `sum`: of all AreaRatios::sums, in their order.
-/// Complexity: linear, and eight calls of `add_up` with 65,536 counts.
+/// Complexity: linear, and at most ten calls of `add_up` with at most 8,192 counts.
 SizeChange size_change_of(std::span<const double> ratios, double sum, const AddUpCounts& add_up, int threads);
 
 }  // namespace trismooth

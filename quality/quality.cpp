@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/quality/quality.h"
 
 #include <algorithm>
@@ -107,10 +108,7 @@ class MeshQuality::Implementation {
   }
 
   QualityReport report(const ConstPointView& points, const QualityOptions& options) const {
-    if (points.size() != static_cast<std::size_t>(vertex_count_)) {
-      throw std::invalid_argument("points: " + std::to_string(points.size()) + " of them, expected one for each of " +
-                                  std::to_string(vertex_count_) + " vertices");
-    }
+    require_a_point_a_vertex(points.size(), points.components(), vertex_count_);
     Workers workers(options.threads);
     return report_of(triangles_, topology_, points, {}, options, workers);
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
@@ -62,5 +63,11 @@ class MeshQuality {
 /// xyz_points(array).
 template <array_layout::Numbers R>
 QualityReport quality(R&& xy_or_xyz, const IndexView& triangles, const QualityOptions& options = {}) = delete;
+/// Points of a type that does not say where their numbers are: what to write instead is in the compiler's message.
+template <array_layout::OtherPoints R>
+QualityReport quality(R&& /*points*/, const IndexView& /*triangles*/, const QualityOptions& /*options*/ = {}) {
+  array_layout::refuse_points<R>();
+  return {};
+}
 
 }  // namespace trismooth

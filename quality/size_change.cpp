@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/quality/size_change.h"
 
 #include <algorithm>
@@ -34,70 +35,82 @@ void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<
 }
 
 /// Finds ratios by their rank among those that are numbers. These are not negative, so their bits stand in their order:
-/// they are counted by their first digits of 16 bits, those with the right ones by the next digit, and so on.
+/// they are counted by their first digits of 13 bits, those with the right ones by the next digit, and so on.
 class RatioRanks {
  public:
   RatioRanks(std::span<const double> ratios, const AddUpCounts& add_up, Workers& workers)
-      : ratios_(ratios), add_up_(add_up), workers_(workers), by_first_digit_(count_by_next_digit({0, 0})) {
-    total_ = std::accumulate(by_first_digit_.begin(), by_first_digit_.end(), std::int64_t{0});
+      : ratios_(ratios), add_up_(add_up), workers_(workers), by_first_digit_(count_next_digits({0, 0}, 0)) {
+    total_ = std::accumulate(by_first_digit_[0].begin(), by_first_digit_[0].end(), std::int64_t{0});
   }
 
   std::int64_t total() const { return total_; }
 
-  /// The smallest ratio that `percent` per cent do not exceed. There is one.
-  double percentile(std::int64_t percent) const {
-    std::int64_t rank = (total_ * percent + 99) / 100;
-    Prefix prefix{0, 0};
-    descend(by_first_digit_, rank, prefix);
-    while (prefix.bits < 64) {
-      descend(count_by_next_digit(prefix), rank, prefix);
+  /// The smallest ratios that so many per cent do not exceed. There are such.
+  std::array<double, 2> percentiles(const std::array<std::int64_t, 2>& percents) const {
+    std::array<std::int64_t, 2> ranks{};
+    std::ranges::transform(percents, ranks.begin(), [this](std::int64_t p) { return (total_ * p + 99) / 100; });
+    Prefixes found{};
+    int known = 0;
+    while (known < 64) {
+      const Counts counts = known == 0 ? by_first_digit_ : count_next_digits(found, known);
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        std::size_t digit = 0;
+        while (counts[i][digit] < ranks[i]) {
+          ranks[i] -= counts[i][digit++];
+        }
+        found[i] = found[i] << bits_behind(known) | digit;
+      }
+      known += bits_behind(known);
     }
-    return std::bit_cast<double>(prefix.value);
+    return {std::bit_cast<double>(found[0]), std::bit_cast<double>(found[1])};
   }
 
  private:
+  /// The leading bits of the ratios that are looked for, and how many ratios that begin with them have each next digit.
+  using Prefixes = std::array<std::uint64_t, 2>;
+  using Counts = std::array<std::vector<std::int64_t>, 2>;
+
   static constexpr std::int64_t grain = 65536;
-  static constexpr int digit_bits = 16;  // of the first one: sign, exponent and 16 steps an octave
 
-  /// The leading bits of a number.
-  struct Prefix {
-    std::uint64_t value;
-    int bits;
-  };
+  /// Of the digit behind so many known bits. (The first one has the sign, the exponent and two steps an octave.)
+  static int bits_behind(int known) { return std::min(13, 64 - known); }
 
-  /// How many ratios with that prefix have each next digit.
-  std::vector<std::int64_t> count_by_next_digit(Prefix prefix) const {
-    const int shift = 64 - prefix.bits - digit_bits;
-    std::vector<std::int64_t> counts = joined_blocks(
-        std::ssize(ratios_), grain, workers_, std::vector<std::int64_t>(std::size_t{1} << digit_bits),
-        [&](std::int64_t begin, std::int64_t end, std::vector<std::int64_t>& of_block) {
+  Counts count_next_digits(const Prefixes& prefixes, int known) const {
+    const int bits = bits_behind(known);
+    const std::vector<std::int64_t> none(std::size_t{1} << bits);
+    const bool is_one = prefixes[0] == prefixes[1];
+    Counts counts = joined_blocks(
+        std::ssize(ratios_), grain, workers_, Counts{none, is_one ? std::vector<std::int64_t>() : none},
+        [&](std::int64_t begin, std::int64_t end, Counts& of_block) {
           for (std::int64_t i = begin; i < end; ++i) {
-            const auto bits = std::bit_cast<std::uint64_t>(ratios_[i]);
-            if (!std::isnan(ratios_[i]) && (prefix.bits == 0 || bits >> (64 - prefix.bits) == prefix.value)) {
-              ++of_block[bits >> shift & (of_block.size() - 1)];
+            const auto ratio = std::bit_cast<std::uint64_t>(ratios_[i]);
+            const std::uint64_t prefix = known == 0 ? 0 : ratio >> (64 - known);
+            const std::size_t digit = ratio >> (64 - known - bits) & (none.size() - 1);
+            if (prefix == prefixes[0] && !std::isnan(ratios_[i])) {
+              ++of_block[0][digit];
+            } else if (prefix == prefixes[1] && !std::isnan(ratios_[i])) {
+              ++of_block[1][digit];
             }
           }
         },
-        [](std::vector<std::int64_t>& all, const std::vector<std::int64_t>& of_block) {
-          std::ranges::transform(all, of_block, all.begin(), std::plus<>());
+        [](Counts& all, const Counts& of_block) {
+          for (std::size_t i = 0; i < all.size(); ++i) {
+            std::ranges::transform(all[i], of_block[i], all[i].begin(), std::plus<>());
+          }
         });
-    add_up_(counts);
-    return counts;
-  }
-
-  /// Appends to the prefix the digit of the ratio with that rank, which becomes the rank among those with this prefix.
-  static void descend(const std::vector<std::int64_t>& counts, std::int64_t& rank, Prefix& prefix) {
-    std::size_t digit = 0;
-    while (counts[digit] < rank) {
-      rank -= counts[digit++];
+    add_up_(counts[0]);
+    if (is_one) {
+      counts[1] = counts[0];
+    } else {
+      add_up_(counts[1]);
     }
-    prefix = {prefix.value << digit_bits | digit, prefix.bits + digit_bits};
+    return counts;
   }
 
   std::span<const double> ratios_;
   const AddUpCounts& add_up_;
   Workers& workers_;
-  std::vector<std::int64_t> by_first_digit_;
+  Counts by_first_digit_;
   std::int64_t total_ = 0;
 };
 
@@ -145,8 +158,9 @@ SizeChange size_change_of(std::span<const double> ratios, double sum, const AddU
     return change;
   }
   change.rms_log_ratio = std::sqrt(sum / static_cast<double>(change.triangles));
-  change.ratio_p1 = ranks.percentile(1);
-  change.ratio_p99 = ranks.percentile(99);
+  const auto [first, last] = ranks.percentiles({1, 99});
+  change.ratio_p1 = first;
+  change.ratio_p99 = last;
   return change;
 }
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Fuzzes the readers and the interface of flat arrays with libFuzzer (Clang, preset asan).
 #
 #   scripts/fuzz.sh [--seconds N | --seconds-of-all N] [--no-build] [TARGET...]
@@ -45,11 +46,7 @@ export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=16${ASAN_OPTIONS:+:
 
 if $builds; then
   (cd "$project" && cmake --preset asan >/dev/null)
-  if ((${#targets[@]} == 0)); then
-    cmake --build "$build" --target fuzz
-  else
-    cmake --build "$build" --target fuzz_seeds "${targets[@]/#/fuzz_}"
-  fi
+  cmake --build "$build" --target fuzz fuzz_seeds
 fi
 mapfile -t all_targets < <("$programs/fuzz_seeds" "$work/seeds")
 if ((${#targets[@]} == 0)); then
@@ -75,7 +72,7 @@ fuzz() {
   if [[ -f $data/dictionaries/$dictionary.dict ]]; then
     options+=(-dict="$data/dictionaries/$dictionary.dict")
   fi
-  "$programs/fuzz_$target" "${options[@]}" "${folders[@]}" >"$work/$target/log" 2>&1 || touch "$work/$target/failed"
+  "$programs/fuzz" "--target=$target" "${options[@]}" "${folders[@]}" >"$work/$target/log" 2>&1 || touch "$work/$target/failed"
 }
 
 # The last value behind a label of libFuzzer's log.
@@ -115,7 +112,7 @@ for target in "${targets[@]}"; do
     if [[ -n $find ]]; then
       find=${find#Test unit written to }
       echo "  log:          $work/$target/log"
-      echo "  to see again: $programs/fuzz_$target $find"
+      echo "  to see again: $programs/fuzz --target=$target $find"
       echo "  to keep:      cp $find $data/regressions/$target/what_it_broke"
     fi
   fi

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs the tests under Clang's sanitizers, the fuzz targets for a moment, says how much of the code the tests reach, and
 # has clang-tidy look at what changed:
 #
@@ -21,7 +22,7 @@ export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 # Under a sanitizer everything takes several times as long: random tests make so
 # many per cent of their meshes.
-export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-10}
+export TRISMOOTH_MESHES=${TRISMOOTH_MESHES:-5}
 
 # build PRESET TARGET...
 build() {
@@ -82,7 +83,7 @@ run_asan() {
   if [[ $(python_options) == *=ON* ]]; then
     python_module=(trismooth_python)
   fi
-  build asan "${tests[@]}" fuzz "${python_module[@]}"
+  build asan "${tests[@]}" fuzz fuzz_seeds "${python_module[@]}"
   run asan "${tests[@]}"
   run_in_pieces
   print_coverage "${tests[@]}"
@@ -96,10 +97,10 @@ run_asan() {
 # On ranks. What MPI itself never gives back is left out.
 run_in_pieces() {
   build asan test_mpi
-  OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 \
-    OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_btl_vader_single_copy_mechanism=none \
-    LLVM_PROFILE_FILE="$project/build/asan/test_mpi_%p.profraw" ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" \
-    mpirun -n 3 "$project/build/asan/tests/mpi/test_mpi"
+  local of_mpi
+  mapfile -t of_mpi < <(grep '^OMPI' "$project/tests/mpi/environment")
+  env "${of_mpi[@]}" "LLVM_PROFILE_FILE=$project/build/asan/test_mpi_%p.profraw" \
+    "ASAN_OPTIONS=$ASAN_OPTIONS:detect_leaks=0" mpirun -n 3 "$project/build/asan/tests/mpi/test_mpi"
   rm -f "$project/build/asan/"test_mpi_*.profraw
   echo "asan: run on ranks after $SECONDS s"
 }

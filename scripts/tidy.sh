@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs clang-tidy with the project's .clang-tidy:
 #
 #   scripts/tidy.sh                    over all sources
@@ -66,6 +67,6 @@ if ((${#kernels[@]} > 0)) && [[ -d $cuda/include ]]; then
   printf '%s\0' "${kernels[@]}" |
     xargs -0 -I{} -P "$(nproc)" "$tidy" --quiet {} -- -x cuda --cuda-host-only "--cuda-path=$cuda" -std=c++20 \
       -ffp-contract=off -Wno-unknown-cuda-version --cuda-gpu-arch=sm_90 -fgpu-rdc -Wno-undefined-internal \
-      -I"$build/include" -I"$project/tests" -isystem "$cuda/include/cccl" || status=1
+      -I"$build/include" -I"$build/public" -I"$project/tests" -isystem "$cuda/include/cccl" || status=1
 fi
 exit "$status"

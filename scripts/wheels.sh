@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes wheels of the Python package in build/wheels/dist, to be uploaded or handed on: with the libraries that they need,
 # for any Linux whose C library is as new as the one their names say (manylinux).
 #
@@ -50,7 +51,7 @@ check_wheel() {
   "$python" -m venv "$environment"
   "$environment/bin/pip" install --quiet --disable-pip-version-check "$wheel" pytest
   (cd "$environment" && env -i "PATH=$environment/bin" HOME="$environment" bin/python -B -m pytest -q -p no:cacheprovider \
-    "$project/python/tests/test_wheel.py" "$project"/python/tests/test_{arrays,errors,plan,quality,threads,files}.py)
+    "$project/python/tests/test_wheel.py" "$project"/python/tests/test_{arrays,errors,moving,plan,quality,threads,files}.py)
   rm -rf "$environment"
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -5,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,9 @@
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
+
+class Follower;
+class MeshAtRest;
 
 /// A mesh that a backend has made ready for smoothing, as often as the caller likes, whatever its coordinates are by
 /// then. Owns all it needs.
@@ -37,6 +42,13 @@ class PreparedSmoother {
   /// may have been written in part, those prepared by prepare_mesh() are untouched.
   virtual SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                                  const std::optional<LocalFrame>& frame) = 0;
+
+  /// From now on Method::mean_ratio aims at the sizes and shapes that the mesh has at `reference`, one point a vertex,
+  /// in place of those at the points of each call; shapes are turned as the mesh is. `reference` is read once; `frame`
+  /// is its local frame. Throws std::invalid_argument where the smoother has nothing of the kind.
+  virtual void aim_at(std::span<const Point2<double>> /*reference*/, const LocalFrame& /*frame*/) {
+    throw std::invalid_argument("a mesh that follows its boundary is smoothed on the CPU, or on one device");
+  }
 
   /// Why each vertex is fixed, as MeshRings::fixed.
   virtual std::vector<std::uint8_t> fixed() const = 0;
@@ -97,6 +109,12 @@ class Backend {
                                                          const SmoothingOptions& /*options*/) const {
     return nullptr;
   }
+
+  /// Makes a mesh ready that follows its boundary, which is carried along on the host unless the backend has a way of
+  /// its own. `mesh`, `rings`: as MeshAtRest's constructor leaves them; the mesh outlives the follower. Throws as
+  /// prepare(), and as PreparedSmoother::aim_at().
+  virtual std::unique_ptr<Follower> follower(const MeshAtRest& mesh, MeshRings rings,
+                                             const SmoothingOptions& options) const;
 };
 
 }  // namespace trismooth

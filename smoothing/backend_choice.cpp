@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/backend_choice.h"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -10,7 +12,11 @@
 namespace trismooth {
 
 const Backend& backend_of(const SmoothingOptions& options) {
-  return options.backend != nullptr ? *options.backend : cpu_backend();
+  const Backend& backend = options.backend != nullptr ? *options.backend : cpu_backend();
+  if (options.proposal && &backend != &cpu_backend()) {
+    throw std::invalid_argument("a proposal is a function of the host: the CPU backend alone takes it");
+  }
+  return backend;
 }
 
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,

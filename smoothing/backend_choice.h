@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <functional>
@@ -14,7 +15,8 @@
 
 namespace trismooth {
 
-/// The backend that the options name, or the CPU's.
+/// The backend that the options name, or the CPU's. Throws std::invalid_argument for another one than the CPU's where
+/// there is a proposal.
 const Backend& backend_of(const SmoothingOptions& options);
 
 /// The rings of a mesh as the options want them found: by their backend where they prefer that and it finds rings, else

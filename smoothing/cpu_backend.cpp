@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/cpu_backend.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/prefetch.h"
 #include "trismooth/base/machine/processor_name.h"
 #include "trismooth/base/machine/stopwatch.h"
@@ -24,6 +26,7 @@
 #include "trismooth/smoothing/slide/packed_slidable.h"
 #include "trismooth/smoothing/slide/slid_vertices.h"
 #include "trismooth/smoothing/slide/slide_guard.h"
+#include "trismooth/smoothing/sweeps/proposed_update.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 #include "trismooth/smoothing/sweeps/slide_pass.h"
 #include "trismooth/smoothing/sweeps/sweep_driver.h"
@@ -87,6 +90,15 @@ class CpuSmoother final : public PreparedSmoother {
     return result;
   }
 
+  void aim_at(std::span<const Point2<double>> reference, const LocalFrame& frame) override {
+    if (options_.precision == Precision::double_precision) {
+      in_double_reference_ = reference_targets<double>(reference, frame);
+    } else {
+      in_single_reference_ = reference_targets<float>(reference, frame);
+    }
+    reference_exponent_ = frame.exponent;
+  }
+
   std::vector<std::uint8_t> fixed() const override { return fixed_; }
 
  private:
@@ -142,6 +154,11 @@ class CpuSmoother final : public PreparedSmoother {
     Stopwatch watch;
     Run<T> run{points, storage, frame, slides, result, {}, {}, {}, {}, {}, {}, {}, {}};
     enter(run);
+    if (CallLimit* const limit = CallLimit::current()) {
+      // The guard takes several times as long as this, with what is written behind it: found by experiment.
+      constexpr double entries_of_guard = 6;
+      limit->keep_back(limit->kept_back().value_or(0) + behind_sweeps_.value_or(entries_of_guard * watch.seconds()));
+    }
     if (options_.untangles()) {
       result.timings.smooth = watch.lap();
       run.turned = untangle_into(run.working, run.before, result);
@@ -158,6 +175,9 @@ class CpuSmoother final : public PreparedSmoother {
       store(run);
     }
     result.timings.commit = watch.lap();
+    if (result.sweeps > 0) {
+      behind_sweeps_ = 1e-3 * result.timings.commit;
+    }
   }
 
   template <class T>
@@ -194,7 +214,13 @@ class CpuSmoother final : public PreparedSmoother {
       fixed_quotient =
           std::min(fixed_quotient, run.chains.smallest_quotient(std::span<const Point2<double>>(run.before)));
     }
-    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, run.slide ? &*run.slide : nullptr, halo(), offload<T>())
+    const ProposedUpdate<T> proposed(options_.proposal, run.frame, rings.input_index);
+    std::optional<ReferenceTargets<T>>& reference = reference_in<T>();
+    if (reference) {
+      reference->exponents = run.frame.exponent - reference_exponent_;
+    }
+    SweepDriver<T>(rings, options_, workers_, inverse_sizes_, run.slide ? &*run.slide : nullptr, halo(), offload<T>(),
+                   options_.proposal ? &proposed : nullptr, reference ? &*reference : nullptr)
         .run(run.working, fixed_quotient, run.result);
   }
 
@@ -385,14 +411,29 @@ class CpuSmoother final : public PreparedSmoother {
   std::optional<Turned> untangle_into(BulkVector<Point2<T>>& working, const BulkVector<Point2<double>>& before,
                                       SmoothingResult& result) {
     result.untangling.emplace();
+    const Stopwatch watch;
     if (!any_part(halo(), inverted_triangles(rings_.view(), before, workers_) > 0)) {
       return std::nullopt;
     }
+    // The guard of what is untangled measures all twice, and again what it takes back: found by experiment.
+    constexpr double looks_of_guard = 8;
+    const double guard_takes = behind_sweeps_.value_or(looks_of_guard * watch.seconds());
     if (halo() != nullptr) {
       throw PartsError(untangling_over_parts);
     }
     BulkVector<Point2<double>> untangled = before;
-    MeshUntangling done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
+    MeshUntangling done;
+    {
+      std::optional<CallLimit> sooner;
+      if (const CallLimit* const limit = CallLimit::current(); limit != nullptr && !limit->is_lifted()) {
+        sooner.emplace(options_.time_limit_seconds - guard_takes, options_.cancel, CallLimit::begin_of_current());
+      }
+      done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
+    }
+    if (CallLimit* const limit = CallLimit::current()) {
+      limit->lift();  // what is untangled is kept
+      limit->keep_back(std::max(limit->kept_back().value_or(0), guard_takes));
+    }
     result.untangling = {.inverted_before = done.inverted_before, .inverted_untangled = done.inverted_after};
     for_vertices(rings_.free_count(), [&](std::int32_t v) { working[v] = narrow<T>(untangled[v]); });
     return done.turned.any() ? std::optional(turn(std::move(done.turned))) : std::nullopt;
@@ -411,6 +452,24 @@ class CpuSmoother final : public PreparedSmoother {
     } else {
       return in_double_.get();
     }
+  }
+
+  template <class T>
+  std::optional<ReferenceTargets<T>>& reference_in() {
+    if constexpr (std::is_same_v<T, float>) {
+      return in_single_reference_;
+    } else {
+      return in_double_reference_;
+    }
+  }
+  template <class T>
+  ReferenceTargets<T> reference_targets(std::span<const Point2<double>> reference, const LocalFrame& frame) {
+    ReferenceTargets<T> found;
+    found.points.resize(reference.size());
+    for_vertices(rings_.vertex_count(),
+                 [&](std::int32_t v) { found.points[v] = narrow<T>(frame.enter(reference[rings_.input_index[v]])); });
+    found.targets = HostTargets<T>(found.points, rings_, options_.mean_ratio, workers_, {}, halo());
+    return found;
   }
 
   /// Null: the mesh is no part of another one.
@@ -435,11 +494,15 @@ class CpuSmoother final : public PreparedSmoother {
   std::unique_ptr<SweepOffload<float>> in_single_;  ///< one of these, where sweeps are made elsewhere
   std::unique_ptr<SweepOffload<double>> in_double_;
   PackedSlidable slidable_;
-  FixedTriangles fixed_triangles_;      ///< where they are asked for
-  std::vector<Triangle> triangles_;     ///< of the mesh, where it may have to be untangled
-  std::vector<std::uint8_t> reversed_;  ///< as MeshRings::reversed, likewise
-  std::vector<double> inverse_sizes_;   ///< that are asked for, in a call; empty: none
-  double prepare_ms_ = 0;               ///< until a call has reported it
+  FixedTriangles fixed_triangles_;                              ///< where they are asked for
+  std::vector<Triangle> triangles_;                             ///< of the mesh, where it may have to be untangled
+  std::vector<std::uint8_t> reversed_;                          ///< as MeshRings::reversed, likewise
+  std::vector<double> inverse_sizes_;                           ///< that are asked for, in a call; empty: none
+  std::optional<ReferenceTargets<float>> in_single_reference_;  ///< see aim_at(); one of these at most
+  std::optional<ReferenceTargets<double>> in_double_reference_;
+  int reference_exponent_ = 0;           ///< of its frame
+  std::optional<double> behind_sweeps_;  ///< seconds that guard and writing took in the last call that came so far
+  double prepare_ms_ = 0;                ///< until a call has reported it
 };
 
 class CpuBackend final : public Backend {
@@ -452,6 +515,9 @@ class CpuBackend final : public Backend {
     options.validate();
     if (options.order == Order::unordered) {
       throw std::invalid_argument("order 'unordered' exists for CUDA only");
+    }
+    if (options.proposal && mesh.slidable.is_wanted()) {
+      throw std::invalid_argument("a proposal says nothing of vertices that slide: without sliding");
     }
     return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, nullptr);
   }

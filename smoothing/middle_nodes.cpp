@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/middle_nodes.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "trismooth/base/machine/call_limit.h"
 
 namespace trismooth {
 
@@ -13,7 +16,11 @@ using SideEnds = std::array<std::int32_t, 2>;
 template <class Visit>
 void for_each_quadratic_side(std::span<const Triangle> triangles, std::span<const QuadraticTriangle> quadratics,
                              const Visit& visit) {
-  for (const QuadraticTriangle& element : quadratics) {
+  for (std::size_t q = 0; q < quadratics.size(); ++q) {
+    if (q % 16384 == 0) {
+      CallLimit::look();
+    }
+    const QuadraticTriangle& element = quadratics[q];
     const Triangle& corners = triangles[static_cast<std::size_t>(element.triangle)];
     for (std::size_t side = 0; side < 3; ++side) {
       const auto [low, high] = std::minmax(corners[side], corners[(side + 1) % 3]);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,10 @@ class NotedSmoother final : public PreparedSmoother {
     SmoothingResult result = smoother_->smooth(points, storage, frame);
     result.backend_note = joined_notes(note_, result.backend_note);
     return result;
+  }
+
+  void aim_at(std::span<const Point2<double>> reference, const LocalFrame& frame) override {
+    smoother_->aim_at(reference, frame);
   }
 
   std::vector<std::uint8_t> fixed() const override { return smoother_->fixed(); }

@@ -1,14 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 
-#include "trismooth/base/array_view.h"
 #include "trismooth/base/enum_text.h"
+#include "trismooth/base/real_view.h"
 #include "trismooth/base/storage.h"
 #include "trismooth/smoothing/method.h"
+#include "trismooth/smoothing/proposal.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth {
@@ -158,12 +161,18 @@ struct MeanRatioOptions {
   /// mesh's mean shape is 0.8 or more, else 2.
   int power = 0;
   TargetShape target = TargetShape::uniform;
-  /// The sizes to aim at in place of those that the mesh has: for every vertex the edge length wanted around it, in any
-  /// unit, since with so many triangles only their relations can be met. Lengths below a millionth of the largest
-  /// count as that; those of vertices in no triangle do not count. Empty: none. The caller owns the numbers and keeps
-  /// them for as long as the options are used, by a plan, too; they are read in every smooth(), which throws
-  /// std::invalid_argument where they are not as many as vertices, or one is not a positive number.
-  ArrayView<double> target_lengths{};
+  /// For meshes that move in time, and are about right before the first sweep: moves die away towards the least gain
+  /// that is worth one, there is no first stage, and the sweeps end where nothing moves, or at max_sweeps, not 0. So
+  /// where no triangle was inverted the result goes with the points as smoothly as these go. Otherwise it may jump by a
+  /// few hundredths of an edge where a vertex begins to move, or the smoothing takes one sweep more.
+  bool steady = false;
+  /// The sizes to aim at in place of those that the mesh has: for every vertex the edge length wanted around it, float
+  /// or double, in any unit, since with so many triangles only their relations can be met. Lengths below a millionth of
+  /// the largest count as that; those of vertices in no triangle do not count. Empty: none. The caller owns the numbers
+  /// and keeps them for as long as the options are used, by a plan, too; they are read in every smooth(), which throws
+  /// std::invalid_argument where they are not as many as vertices, with every method, or where one is not a positive
+  /// number.
+  RealView target_lengths{};
 };
 
 template <>
@@ -176,6 +185,9 @@ struct EnumText<Untangle> {
 /// Everything that steers a smoothing. The defaults are those of the command line.
 struct SmoothingOptions {
   Method method = Method::smart;
+  /// A method of the caller's own in place of `method`, which stays as it is by default then. On the CPU, for whole
+  /// meshes, where no vertices slide. See proposal.h.
+  Proposal proposal{};
   Form form = Form::in_place;
   Layout layout = Layout::aos;
   Execution execution = Execution::resident;
@@ -195,7 +207,11 @@ struct SmoothingOptions {
   std::int64_t max_sweeps = 1000;  ///< 0: no limit
   /// Stop after a sweep in which every move was at most this part of the vertex's (root mean square) edge length.
   double tolerance = 1e-6;
-  /// Looked at after every sweep; a device may be up to a hundredth of a second late.
+  /// How long a call of smooth() may take, all in all: what it finds out about the mesh, untangling, targets, sweeps
+  /// and guard. Sweeps end early enough for the guard, which a first call can only guess at; where there is no time for
+  /// one, nothing moves. What an untangling has mended by then is kept. Over parts and ranks the clock is looked at
+  /// between sweeps and before the first one. A plan() has no limit, nor what its first smooth() makes ready for later
+  /// ones.
   double time_limit_seconds = std::numeric_limits<double>::infinity();
   std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all triangles reaches this
   int threads = 0;                ///< 0: one for each core; most_threads() at most. The result does not depend on it
@@ -204,8 +220,15 @@ struct SmoothingOptions {
   /// sweep left it. A device hands the records over in batches, some hundred times a second, so that a callback costs
   /// nothing; where it says stop the device has gone on meanwhile and makes the sweeps up to there again.
   std::function<Progress(const SweepRecord&)> progress{};
+  /// Asked in every phase but the guard, many times a second, from the thread that called: true ends the call as if its
+  /// time were up. plan() asks as well, and throws PlanCancelled. What it throws leaves the call, and the points as
+  /// they were. Over ranks every rank may have one of its own.
+  std::function<bool()> cancel{};
   /// Who runs the sweeps; the caller owns it. Null: the CPU backend.
   const Backend* backend = nullptr;
+
+  /// What moves vertices: the name of the method, "proposal" where that is the caller's own.
+  [[nodiscard]] std::string_view method_name() const { return proposal ? "proposal" : to_string(method); }
 
   /// Whether the smallest shape of the mesh is found after every sweep: for a quality target or for the record.
   [[nodiscard]] bool measures_shape() const { return record_min_shape || target_quality.has_value(); }
@@ -235,7 +258,8 @@ struct SmoothingOptions {
 
   /// Throws std::invalid_argument for values out of range (a negative count, a NaN, more than most_threads()) and for
   /// combinations that no backend has: an execution other than resident with a method other than smart and laplacian,
-  /// Order::unordered with Form::swap or Execution::resident, Layout::soa with Execution::resident.
+  /// Order::unordered with Form::swap or Execution::resident, Layout::soa with Execution::resident, a proposal with
+  /// another method or without the energy that it is accepted by.
   void validate() const;
 };
 

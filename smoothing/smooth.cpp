@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/smooth.h"
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -8,12 +10,15 @@
 
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/release.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/moved_from.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/invalid_triangles.h"
+#include "trismooth/smoothing/limited.h"
 #include "trismooth/smoothing/rings/analysed_mesh.h"
 
 namespace trismooth {
@@ -48,10 +53,19 @@ class SmoothingPlan::Implementation {
     mesh_.emplace(vertex_count_, triangles_, constraints, workers_);
   }
 
+  const SmoothingOptions& options() const { return options_; }
+
   std::vector<std::uint8_t> fixed() const { return is_analysed_by_backend_ ? smoother_->fixed() : mesh_->fixed(); }
 
-  SmoothingResult smooth(const PointView& points, Storage storage) {
-    require_a_point_a_vertex(points);
+  /// `is_once`: what is made ready serves this call alone.
+  SmoothingResult smooth(const PointView& points, Storage storage, bool is_once) {
+    require_a_point_a_vertex(points.size(), points.components(), vertex_count_);
+    // What later calls need is not left for lack of time: under a limit that is too short for it each of them would
+    // begin with it again. The caller may cancel it.
+    std::optional<CallLimit> patient;
+    if (!is_once && smoother_ == nullptr) {
+      patient.emplace(std::numeric_limits<double>::infinity(), options_.cancel, CallLimit::begin_of_current());
+    }
     const Storage stored = points.storage() == Storage::float32 ? Storage::float32 : storage;
     if (is_analysed_by_backend_ && !points.as_pairs().empty()) {
       return smoother_->smooth(points.as_pairs(), stored, std::nullopt);
@@ -60,8 +74,8 @@ class SmoothingPlan::Implementation {
     if (points.components() == 3) {
       require_one_height(points, copy, [this] { return fixed(); });
     }
-    SmoothingResult result =
-        is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt) : smooth_oriented(copy, stored);
+    SmoothingResult result = is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt)
+                                                     : smooth_oriented(copy, stored, patient);
     result.backend_note = joined_notes(note_, result.backend_note);
     points.write(copy, workers_);
     return result;
@@ -73,18 +87,10 @@ class SmoothingPlan::Implementation {
     return options;
   }
 
-  void require_a_point_a_vertex(const PointView& points) const {
-    const auto expected = static_cast<std::size_t>(vertex_count_);
-    if (points.size() != expected) {
-      const bool may_be_triples = points.components() == 2 && 2 * points.size() == 3 * expected;
-      throw std::invalid_argument("points: " + std::to_string(points.size()) + " of them, expected one for each of " +
-                                  std::to_string(expected) + " vertices" +
-                                  (may_be_triples ? "; xyz_points() is for x, y and z" : ""));
-    }
-  }
-
   /// Finds the frame and the orientation that these points give the mesh, and makes it ready again where that is new.
-  SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage) {
+  /// `patient`: ends when all is ready.
+  SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage,
+                                  std::optional<CallLimit>& patient) {
     const LocalPoints local = entered(local_frame_of_cells(points, mesh_->fixed()), points);
     if (mesh_->look_at(local.points, triangles_, options_.used_layers(), workers_) || smoother_ == nullptr) {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
@@ -93,6 +99,7 @@ class SmoothingPlan::Implementation {
       smoother_ =
           backend_of(options_).prepare(mesh_->with_rings(triangles_, workers_), triangles_, local.points, options_);
     }
+    patient.reset();
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);
     result.layers = mesh_->layers();
     count_invalid(
@@ -112,7 +119,8 @@ class SmoothingPlan::Implementation {
 
 SmoothingPlan::SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,
                              const SmoothingOptions& options)
-    : implementation_(std::make_unique<Implementation>(vertex_count, triangles, constraints, options)) {}
+    : implementation_(planned(
+          options, [&] { return std::make_unique<Implementation>(vertex_count, triangles, constraints, options); })) {}
 
 SmoothingPlan::SmoothingPlan(std::int64_t vertex_count, const IndexView& triangles, const SmoothingOptions& options)
     : SmoothingPlan(vertex_count, triangles, Constraints{}, options) {}
@@ -122,17 +130,14 @@ SmoothingPlan& SmoothingPlan::operator=(SmoothingPlan&&) noexcept = default;
 SmoothingPlan::~SmoothingPlan() = default;
 
 SmoothingResult SmoothingPlan::smooth(const PointView& points, Storage storage) {
-  if (implementation_ == nullptr) {
-    throw std::logic_error("this plan has been moved from");
-  }
-  return implementation_->smooth(points, storage);
+  Implementation& plan = not_moved_from(implementation_);
+  const SmoothingOptions& options = plan.options();
+  const bool is_once = is_part_of_call();
+  return limited(options, backend_of(options).name(), [&] { return plan.smooth(points, storage, is_once); });
 }
 
 std::vector<std::uint8_t> SmoothingPlan::fixed() const {
-  if (implementation_ == nullptr) {
-    throw std::logic_error("this plan has been moved from");
-  }
-  return implementation_->fixed();
+  return not_moved_from(implementation_).fixed();
 }
 
 SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const Constraints& constraints,
@@ -146,7 +151,10 @@ SmoothingPlan plan(std::int64_t vertex_count, const IndexView& triangles, const 
 
 SmoothingResult smooth(const PointView& points, const IndexView& triangles, const Constraints& constraints,
                        const SmoothingOptions& options) {
-  return plan(static_cast<std::int64_t>(points.size()), triangles, constraints, options).smooth(points);
+  options.validate();
+  return limited(options, backend_of(options).name(), [&] {
+    return plan(static_cast<std::int64_t>(points.size()), triangles, constraints, options).smooth(points);
+  });
 }
 
 SmoothingResult smooth(const PointView& points, const IndexView& triangles, const SmoothingOptions& options) {

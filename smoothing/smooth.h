@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -53,6 +54,12 @@ class [[nodiscard]] SmoothingPlan {
   SmoothingResult smooth(R&& xy, Storage storage = Storage::float64) {
     return smooth(xy_points(xy), storage);
   }
+  /// Points of a type that does not say where their numbers are: what to write instead is in the compiler's message.
+  template <array_layout::OtherPoints R>
+  SmoothingResult smooth(R&& /*points*/, Storage /*storage*/ = Storage::float64) {
+    array_layout::refuse_points<R>();
+    return {};
+  }
 
   /// Why each vertex is held: bits of namespace hold (base/hold.h), 0 where nothing holds it. What is flat on purpose
   /// is known after the first smooth(). Throws std::logic_error where the plan has been moved from. Complexity: linear.
@@ -83,6 +90,18 @@ SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const Constrai
                        const SmoothingOptions& options = {}) = delete;
 template <array_layout::Numbers R>
 SmoothingResult smooth(R&& xy_or_xyz, const IndexView& triangles, const SmoothingOptions& options = {}) = delete;
+
+/// Points of a type that does not say where their numbers are: what to write instead is in the compiler's message.
+template <array_layout::OtherPoints R>
+SmoothingResult smooth(R&& /*points*/, const IndexView& /*triangles*/, const Constraints& /*constraints*/,
+                       const SmoothingOptions& /*options*/ = {}) {
+  array_layout::refuse_points<R>();
+  return {};
+}
+template <array_layout::OtherPoints R>
+SmoothingResult smooth(R&& points, const IndexView& triangles, const SmoothingOptions& options = {}) {
+  return smooth(points, triangles, Constraints{}, options);
+}
 
 /// Smooths the caller's mesh of quadratic triangles in place, once. `triangles`: six vertex numbers each, from 0: the
 /// corners 0, 1 and 2, then the middles of the sides 01, 12 and 20, as VTK (type 22), Gmsh (type 9), Abaqus (CPS6) and

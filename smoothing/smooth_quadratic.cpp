@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -9,10 +10,13 @@
 
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/commit.h"
 #include "trismooth/smoothing/invalid_triangles.h"
+#include "trismooth/smoothing/limited.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -39,6 +43,9 @@ QuadraticLists listed_quadratics(std::span<const std::int32_t> nodes, std::int64
   lists.corners.reserve(count);
   lists.quadratics.reserve(count);
   for (std::size_t t = 0; t < count; ++t) {
+    if (t % 16384 == 0) {
+      CallLimit::look();
+    }
     const auto of_triangle = nodes.subspan(nodes_of_quadratic * t, nodes_of_quadratic);
     for (const std::int32_t v : of_triangle) {
       if (v < 0 || v >= vertex_count) {
@@ -76,24 +83,8 @@ LocalPoints local_nodes(std::span<const Point2<double>> nodes, const QuadraticLi
       nodes, [&](std::size_t v) { return is_used[v] != 0; }, workers);
 }
 
-/// What is stored of nodes in the plane, x and y of that type.
-StoredImage plane_image(Storage storage) {
-  return {2,
-          [](std::size_t /*vertex*/, const double* stored) {
-            return Point2<double>{stored[0], stored[1]};
-          },
-          [](const double* /*stored*/, Point2<double> /*from*/, Point2<double> to, double* moved) {
-            moved[0] = to.x;
-            moved[1] = to.y;
-          },
-          [storage](double number) { return rounded_to(storage, number); }};
-}
-
-}  // namespace
-
-SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
-                                 const Constraints& constraints, const SmoothingOptions& options) {
-  options.validate();
+SmoothingResult smooth_nodes(const PointView& points, const ArrayView<std::int32_t>& triangles,
+                             const Constraints& constraints, const SmoothingOptions& options) {
   Workers workers(options.threads);
   const QuadraticLists lists = listed_quadratics(triangles, static_cast<std::int64_t>(points.size()));
   check_constraints(constraints, static_cast<std::int32_t>(points.size()), std::ssize(lists.corners));
@@ -122,21 +113,29 @@ SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::i
   if (points.components() == 3) {
     require_one_height(points, nodes, [&of_corners] { return of_corners.fixed(); });
   }
+  if (CallLimit* const limit = CallLimit::current()) {
+    limit->keep_back(limit->seconds());  // what comes behind the sweeps finds all that once more, and commits
+  }
   std::vector<Point2<double>> swept = nodes;
   SmoothingResult result = of_corners.smooth(swept, points.storage());
   const LocalPoints before = local_nodes(nodes, lists, in_other_cell, workers);
   const MeshRings rings = find_mesh_rings(before.points, lists.corners, settled, workers);
-  std::vector<double> stored;
-  stored.reserve(2 * nodes.size());
-  for (const Point2<double> p : nodes) {
-    stored.insert(stored.end(), {p.x, p.y});
-  }
+  std::vector<double> stored = numbers_of(nodes);
   commit({rings, lists.corners, lists.quadratics, middles, before, swept}, plane_image(points.storage()), stored, nodes,
          options, workers, result);
   count_invalid(
       lists.corners, rings.reversed, [&](std::int32_t v) { return before.frame.enter(nodes[v]); }, workers, result);
   points.write(nodes, workers);
   return result;
+}
+
+}  // namespace
+
+SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
+                                 const Constraints& constraints, const SmoothingOptions& options) {
+  options.validate();
+  return limited(options, backend_of(options).name(),
+                 [&] { return smooth_nodes(points, triangles, constraints, options); });
 }
 
 SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """rooms.py SOURCE: the modules, and the rooms of smoothing/ and cuda/, include each other in one direction only.
 
 Data flows one way: from the caller's coordinates down to the formulas and back. A room may include itself and what its
@@ -9,14 +10,15 @@ import pathlib
 import re
 import sys
 
-FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "method", "options", "result",
-                                                                 "sliding")},
+FACES = {**{f"smoothing/{name}.h": "smoothing faces" for name in ("constraints", "errors", "follow_result", "method", "options", "proposal",
+                                                                 "result", "sliding")},
          "cuda/device_constraints.h": "cuda faces",
          # What runs the program, from the shell and from Python.
          "pipeline/cli/main.h": "pipeline programs", "python/src/files.h": "pipeline programs"}
 
 SMOOTHING = ["base", "quality", "smoothing faces", "smoothing/parts", "smoothing/layers", "smoothing/rings",
-             "smoothing/methods", "smoothing/halo", "smoothing/sweeps", "smoothing/guard", "smoothing/slide", "smoothing/untangle", "smoothing"]
+             "smoothing/methods", "smoothing/halo", "smoothing/sweeps", "smoothing/guard", "smoothing/slide", "smoothing/systems",
+             "smoothing/untangle", "smoothing/moving", "smoothing"]
 MAY_USE = {
     "base": [],
     "quality": ["base"],
@@ -30,10 +32,13 @@ MAY_USE = {
     "smoothing/slide": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard"],
     "smoothing/sweeps": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/parts", "smoothing/rings",
                          "smoothing/halo", "smoothing/slide"],
-    "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard"],
+    "smoothing/systems": ["base"],
+    "smoothing/untangle": ["base", "quality", "smoothing faces", "smoothing/methods", "smoothing/rings", "smoothing/guard",
+                           "smoothing/systems"],
+    "smoothing/moving": ["base", "quality", "smoothing faces", "smoothing/rings", "smoothing/systems"],
     "smoothing": SMOOTHING,
     "smoothing/in_parts": SMOOTHING,
-    "space": ["base"],
+    "space": list(SMOOTHING),
     "mesh_io": ["base"],
     "mesh_io/halfedge": [*SMOOTHING, "space"],
     "cuda faces": ["base", "smoothing faces"],
@@ -41,7 +46,7 @@ MAY_USE = {
 # From the lowest to the highest: each may use those before it.
 below = [*SMOOTHING, "smoothing/in_parts", "cuda faces"]
 for own in ("runtime", "primitives", "topology", "packing", "update", "sweeps", "sweeps/grid", "sweeps/patches", "paper",
-            "guard", "slide", "parts"):
+            "guard", "slide", "moving", "parts"):
     MAY_USE[f"cuda/{own}"] = list(below)
     below.append(f"cuda/{own}")
 MAY_USE["cuda"] = below

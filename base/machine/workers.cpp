@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/machine/workers.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <new>
@@ -91,6 +93,24 @@ void Workers::share_out(std::int64_t size, std::int64_t grain, const Callee<std:
     tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, size, static_cast<std::size_t>(grain)),
                       [&](const auto& range) { body(range.begin(), range.end()); });
   });
+}
+
+void Workers::share_out_within(CallLimit& limit, std::int64_t size, std::int64_t grain,
+                               const Callee<std::int64_t, std::int64_t>& body) {
+  const auto checked = [&limit, &body](std::int64_t begin, std::int64_t end) {
+    limit.check();
+    body(begin, end);
+  };
+  if (count_ > 1 && size > grain) {
+    limit.check();  // TBB does not promise that this thread, which alone asks the caller, gets a part
+    share_out(size, grain, callee_of<std::int64_t, std::int64_t>(checked));
+    return;
+  }
+  constexpr std::int64_t most_parts = 16;
+  const std::int64_t parts = std::clamp<std::int64_t>(size / grain, 1, most_parts);
+  for (std::int64_t part = 0; part < parts; ++part) {
+    checked(size / parts * part, part + 1 == parts ? size : size / parts * (part + 1));
+  }
 }
 
 void Workers::line_up(std::size_t count, std::size_t places, const Callee<std::size_t, std::size_t>& work,

@@ -1,8 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+
+#include "trismooth/base/machine/call_limit.h"
 
 namespace trismooth {
 
@@ -36,10 +39,16 @@ class Workers {
   }
 
   /// Calls body(begin, end) on parts of [0, size) of no less than half of `grain` elements, in any order, on all
-  /// threads; on the calling thread alone, in one part, where there is one thread or no more than `grain` elements.
+  /// threads; on the calling thread alone, in one part, where there is one thread or no more than `grain` elements, and
+  /// in some parts where that thread has a CallLimit. Where that is over CallEnded leaves the loop between two parts,
+  /// and nobody is at work on one any more.
   template <class Body>
   void for_blocks(std::int64_t size, std::int64_t grain, const Body& body) {
     if (size <= 0) {
+      return;
+    }
+    if (CallLimit* const limit = CallLimit::current(); limit != nullptr && !limit->is_lifted()) {
+      share_out_within(*limit, size, grain, callee_of<std::int64_t, std::int64_t>(body));
       return;
     }
     if (count_ == 1 || size <= grain) {
@@ -86,6 +95,8 @@ class Workers {
   void start();
   void enter(const Callee<>& function);
   void share_out(std::int64_t size, std::int64_t grain, const Callee<std::int64_t, std::int64_t>& body);
+  void share_out_within(CallLimit& limit, std::int64_t size, std::int64_t grain,
+                        const Callee<std::int64_t, std::int64_t>& body);
   void line_up(std::size_t count, std::size_t places, const Callee<std::size_t, std::size_t>& work,
                const Callee<std::size_t, std::size_t>& then);
 

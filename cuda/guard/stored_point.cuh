@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "trismooth/base/local_frame.h"
@@ -6,12 +7,16 @@
 
 namespace trismooth::cuda {
 
+/// rounded_to(), on a device.
+inline __device__ Point2<double> rounded_point(Point2<double> point, Storage storage) {
+  return storage == Storage::float64 ? point
+                                     : Point2<double>{static_cast<double>(static_cast<float>(point.x)),
+                                                      static_cast<double>(static_cast<float>(point.y))};
+}
+
 /// Where the file would have a point of the local frame: rounded_to() of what has left it.
 inline __device__ Point2<double> stored_point(const LocalFrame& frame, Point2<double> local, Storage storage) {
-  const Point2<double> left = frame.leave(local, largest_stored(storage));
-  return storage == Storage::float64 ? left
-                                     : Point2<double>{static_cast<double>(static_cast<float>(left.x)),
-                                                      static_cast<double>(static_cast<float>(left.y))};
+  return rounded_point(frame.leave(local, largest_stored(storage)), storage);
 }
 
 }  // namespace trismooth::cuda

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -50,7 +51,9 @@ class PaperEngine {
   std::pair<Points, Points> input() const { return {points_, points_}; }
   /// Never: no method of the paper aims at sizes.
   void set_sizes(const VertexOrder& /*order*/, std::span<const double> /*inverse_sizes*/) {}
-  void begin() { mesh_.initiate(*context_, points_); }
+  /// No method of the paper aims at anything.
+  void aim_at_input(int /*exponent*/) {}
+  void begin(const LocalFrame* /*frame*/) { mesh_.initiate(*context_, points_); }
   void begin_stage() {}
   std::int64_t sweep(const MeanRatioStep<T>& /*step*/, const LoopRules& rules, LoopState* state, SweepSums* sums) {
     if (rings_.with_children) {

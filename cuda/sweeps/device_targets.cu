@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstddef>
 
 #include "trismooth/cuda/packing/slotted_rings.h"
 #include "trismooth/cuda/runtime/check.h"
@@ -180,6 +182,40 @@ struct AverageEdges {
   }
 };
 
+/// Targets of a reference where the mesh has moved, of one vertex. `frame`: that of the points.
+template <class T, class Rings>
+struct MoveTargets {
+  Rings rings;
+  PointArray<T> points;
+  PointArray<T> reference;
+  const T* areas_of_reference;
+  const T* shares_of_reference;
+  const EdgeTensor<T>* edges_of_reference;
+  const LocalFrame* frame;
+  int exponent;
+  T* areas;
+  T* shares;
+  EdgeTensor<T>* edges;  ///< null where shapes are not to be kept
+
+  __device__ void operator()(std::uint32_t i) const {
+    const auto v = static_cast<std::int32_t>(i);
+    const int exponents = frame->exponent - exponent;
+    areas[v] = inverse_area_in(areas_of_reference[v], exponents);
+    if (v >= rings.size) {
+      return;
+    }
+    const Point2<T> position = points.load(v);
+    const auto ring = ring_in_memory(points, rings, v);
+    const T share = largest_share_in(shares_of_reference[v], exponents);
+    const T share_now = measure_for_mean_ratio(position, ring).largest_share;
+    shares[v] = share < share_now ? share_now : share;
+    if (edges != nullptr) {
+      edges[v] = turned(edges_of_reference[v],
+                        turn_of_edges(v, position, ring, [this](std::int32_t u) { return reference.load(u); }));
+    }
+  }
+};
+
 /// inverse_sizes[v] = the size of packed vertex v.
 template <class T>
 struct PackSizes {
@@ -257,10 +293,45 @@ void DeviceTargets<T>::set_sizes(const VertexOrder& order, std::span<const doubl
 
 template <class T>
 template <class Rings>
-void DeviceTargets<T>::find(const Rings& rings, const PointArray<T>& points) {
+void DeviceTargets<T>::keep(const Rings& rings, const PointArray<T>& points, int exponent) {
   if (inverse_areas_.size() == 0) {
     return;
   }
+  find_anew(rings, points);
+  const auto copied = [&]<class Value>(const Value* values, std::size_t count) {
+    DeviceBuffer<Value> copy(*context_, count);
+    if (count > 0) {
+      TRISMOOTH_CUDA_CHECK(
+          cudaMemcpyAsync(copy.data(), values, count * sizeof(Value), cudaMemcpyDeviceToDevice, context_->stream()));
+    }
+    return copy;
+  };
+  reference_ = Reference{copied(static_cast<const PointRecord<T>*>(points.points), inverse_areas_.size()),
+                         copied(static_cast<const T*>(inverse_areas_.data()), inverse_areas_.size()),
+                         copied(static_cast<const T*>(largest_shares_.data()), largest_shares_.size()),
+                         copied(static_cast<const EdgeTensor<T>*>(edges_.data()), edges_.size()), exponent};
+}
+
+template <class T>
+template <class Rings>
+void DeviceTargets<T>::find(const Rings& rings, const PointArray<T>& points, const LocalFrame* frame) {
+  if (inverse_areas_.size() == 0) {
+    return;
+  }
+  if (!reference_) {
+    find_anew(rings, points);
+    return;
+  }
+  Reference& of = *reference_;
+  for_each(*context_, static_cast<std::uint32_t>(inverse_areas_.size()),
+           MoveTargets<T, Rings>{rings, points, PointArray<T>{of.points.data()}, of.inverse_areas.data(),
+                                 of.largest_shares.data(), of.edges.data(), frame, of.exponent, inverse_areas_.data(),
+                                 largest_shares_.data(), edges_.data()});
+}
+
+template <class T>
+template <class Rings>
+void DeviceTargets<T>::find_anew(const Rings& rings, const PointArray<T>& points) {
   sums_.fill_bytes(0);
   fixed_.fill_bytes(0);
   const T* const sizes = inverse_sizes_.data();
@@ -288,11 +359,14 @@ void DeviceTargets<T>::find(const Rings& rings, const PointArray<T>& points) {
   }
 }
 
-#define INSTANTIATE(T)                                                                               \
-  template class DeviceTargets<T>;                                                                   \
-  template void DeviceTargets<T>::find(const RingsView&, const PointArray<T>&);                      \
-  template void DeviceTargets<T>::find(const SlottedRingsView<std::int16_t>&, const PointArray<T>&); \
-  template void DeviceTargets<T>::find(const SlottedRingsView<std::int32_t>&, const PointArray<T>&)
+#define INSTANTIATE_FOR(T, Rings)                                                \
+  template void DeviceTargets<T>::keep(const Rings&, const PointArray<T>&, int); \
+  template void DeviceTargets<T>::find(const Rings&, const PointArray<T>&, const LocalFrame*)
+#define INSTANTIATE(T)                                \
+  template class DeviceTargets<T>;                    \
+  INSTANTIATE_FOR(T, RingsView);                      \
+  INSTANTIATE_FOR(T, SlottedRingsView<std::int16_t>); \
+  INSTANTIATE_FOR(T, SlottedRingsView<std::int32_t>)
 INSTANTIATE(float);
 INSTANTIATE(double);
 

@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
+#include "trismooth/base/local_frame.h"
 #include "trismooth/cuda/packing/vertex_order.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
@@ -25,10 +28,15 @@ class DeviceTargets {
   /// The sizes that are asked for, as HostTargets takes them: before find(), where the options say that they are.
   void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes);
 
-  /// Queues the finding for smoothing from these positions. Nothing where the method is another one. `Rings`: RingsView
-  /// or SlottedRingsView.
+  /// From now on find() aims at what it aims at for these positions in a local frame of that exponent, of a mesh that
+  /// has moved since: see HostTargets::moved().
   template <class Rings>
-  void find(const Rings& rings, const PointArray<T>& points);
+  void keep(const Rings& rings, const PointArray<T>& points, int exponent);
+
+  /// Queues the finding for smoothing from these positions. Nothing where the method is another one. `Rings`: RingsView
+  /// or SlottedRingsView. `frame`: the local frame that they are in, on the device.
+  template <class Rings>
+  void find(const Rings& rings, const PointArray<T>& points, const LocalFrame* frame);
 
   /// What find() has found of the mesh as a whole; see MeanRatioMesh::of().
   const MeanRatioSums* sums() const { return sums_.data(); }
@@ -41,6 +49,18 @@ class DeviceTargets {
   }
 
  private:
+  /// Another mesh that is aimed at.
+  struct Reference {
+    DeviceBuffer<PointRecord<T>> points;
+    DeviceBuffer<T> inverse_areas;
+    DeviceBuffer<T> largest_shares;
+    DeviceBuffer<EdgeTensor<T>> edges;
+    int exponent;
+  };
+
+  template <class Rings>
+  void find_anew(const Rings& rings, const PointArray<T>& points);
+
   Context* context_;
   double size_weight_;
   int power_;
@@ -52,6 +72,7 @@ class DeviceTargets {
   DeviceBuffer<T> inverse_sizes_;        ///< one a vertex, where they are
   DeviceBuffer<EdgeTensor<T>> around_;   ///< edges around each vertex, where shapes are to be kept
   DeviceBuffer<EdgeTensor<T>> edges_;    ///< MeanRatioTargets::edges, where shapes are to be kept
+  std::optional<Reference> reference_;   ///< see keep()
 };
 
 }  // namespace trismooth::cuda

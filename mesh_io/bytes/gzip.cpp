@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/bytes/gzip.h"
 
 #include <algorithm>
@@ -148,19 +149,19 @@ MemoryBlock gunzip(const std::filesystem::path& path, std::string_view bytes) {
 
 void write_gzip(std::string_view bytes, const ByteSink& sink, const FileWorkers& workers) {
   using namespace std::string_view_literals;
-  constexpr std::size_t block_bytes = std::size_t{1} << 18;
-  const std::size_t blocks = std::max(std::size_t{1}, (bytes.size() + block_bytes - 1) / block_bytes);
+  constexpr std::size_t part_bytes = std::size_t{1} << 18;
+  const std::size_t blocks = std::max(std::size_t{1}, (bytes.size() + part_bytes - 1) / part_bytes);
   std::vector<uLong> sums(blocks);
   sink("\x1f\x8b\x08\0\0\0\0\0\0\xff"sv);  // deflate, nothing optional, no time, of no system in particular
   OrderedBlocks(sink, workers).write(blocks, [&](std::size_t block, MemoryBlock& target) {
-    const std::size_t begin = block * block_bytes;
-    const std::size_t count = std::min(block_bytes, bytes.size() - begin);
+    const std::size_t begin = block * part_bytes;
+    const std::size_t count = std::min(part_bytes, bytes.size() - begin);
     sums[block] = ::crc32(0, Deflater::bytes_at(bytes, begin), static_cast<uInt>(count));
     Deflater().append(bytes, begin, count, target);
   });
   uLong sum = sums.front();
   for (std::size_t block = 1; block < blocks; ++block) {
-    const std::size_t count = std::min(block_bytes, bytes.size() - block * block_bytes);
+    const std::size_t count = std::min(part_bytes, bytes.size() - block * part_bytes);
     sum = ::crc32_combine(sum, sums[block], static_cast<z_off_t>(count));
   }
   for (const std::uint64_t number : {std::uint64_t{sum}, std::uint64_t{bytes.size()}}) {

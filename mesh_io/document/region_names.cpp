@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/document/region_names.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 // result.
 
 /// Words for regions, of all programs. With one of the beginnings and one of the endings they are names of regions.
-constexpr std::array words = std::to_array<std::string_view>(
+constexpr std::array region_words = std::to_array<std::string_view>(
     {"region",    "domain",    "subdomain", "zone",     "material",    "mat",         "medium",   "block",
      "attribute", "marker",    "tag",       "label",    "ref",         "physical",    "property", "prop",
      "section",   "component", "entity",    "family",   "geometrical", "geometry",    "elset",    "elementary",
@@ -145,7 +146,7 @@ bool is_made_of_words(std::string_view name) {
   return std::ranges::any_of(beginnings, [&](std::string_view beginning) {
     return name.starts_with(beginning) && std::ranges::any_of(endings, [&](std::string_view ending) {
              const std::string_view rest = name.substr(beginning.size());
-             return rest.ends_with(ending) && contains(words, rest.substr(0, rest.size() - ending.size()));
+             return rest.ends_with(ending) && contains(region_words, rest.substr(0, rest.size() - ending.size()));
            });
   });
 }

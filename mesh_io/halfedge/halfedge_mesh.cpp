@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/halfedge/halfedge_mesh.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-constexpr std::int64_t grain = 16384;
+constexpr std::int64_t rows_a_task = 16384;
 
 /// Calls visit(halfedge) for each halfedge of a face that leaves the vertex of `first`, which is one of them, as far as
 /// faces follow each other around it. Asks nothing of the halfedges outside.
@@ -113,7 +114,7 @@ class Builder {
 
   /// Every halfedge of the mesh is one triangle's: that of a side, or the outer one beside it.
   void fill_faces() {
-    workers_.for_blocks(std::ssize(triangles_), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(std::ssize(triangles_), rows_a_task, [&](std::int64_t begin, std::int64_t end) {
       for (auto t = static_cast<std::int32_t>(begin); t < end; ++t) {
         fill_face(t);
       }
@@ -141,7 +142,7 @@ class Builder {
 
   /// A vertex begins with the halfedge that leaves it in its lowest triangle.
   void fill_vertices(std::span<const double> xyz) {
-    workers_.for_blocks(topology_.vertex_count, grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(topology_.vertex_count, rows_a_task, [&](std::int64_t begin, std::int64_t end) {
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
         const VertexHandle vertex(v);
         const double* const point = xyz.data() + 3 * static_cast<std::size_t>(v);
@@ -192,7 +193,7 @@ class Builder {
   /// Links the outer halfedges around each fan's gap; they are the outgoing ones of their vertices, as OpenMesh wants.
   void close_boundaries() {
     // An outer halfedge is the one that leaves its vertex, and the one before its next.
-    workers_.for_blocks(std::ssize(halfedges_), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(std::ssize(halfedges_), rows_a_task, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t h = begin; h < end; ++h) {
         if (is_beside_outer(halfedges_[h])) {
           const HalfedgeHandle outer = mesh_.opposite_halfedge_handle(inner(h));
@@ -247,7 +248,7 @@ OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::int32_t> 
   // In the order of the halfedges, which lie as the file lists its triangles: with more locality than its vertices.
   constexpr std::int64_t bits = 64;
   std::vector<std::uint64_t> is_first(mesh.n_halfedges() / bits + 1, 0);
-  workers.for_blocks(std::ssize(fixed), grain, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(std::ssize(fixed), rows_a_task, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = static_cast<int>(begin); v < end; ++v) {
       if (fixed[v] == 0) {
         const int first = mesh.halfedge_handle(VertexHandle(v)).idx();
@@ -273,7 +274,7 @@ OneRings one_rings(const HalfedgeMesh& halfedges, std::span<const std::int32_t> 
   const auto offset = [&](HalfedgeHandle first) -> const std::int64_t& {
     return rings.offsets[static_cast<std::size_t>(mesh.from_vertex_handle(first).idx())];
   };
-  workers.for_blocks(std::ssize(is_first), grain / bits, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(std::ssize(is_first), rows_a_task / bits, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t word = begin; word < end; ++word) {
       // Vertices may be numbered at random: what is of them alone is asked for before it is needed.
       if (word + 2 < end) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 
 #include <algorithm>
@@ -12,13 +13,15 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/moved_from.h"
 #include "trismooth/mesh_io/halfedge/flat_mesh.h"
 #include "trismooth/mesh_io/halfedge/mesh_place.h"
-#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/invalid_triangles.h"
+#include "trismooth/smoothing/limited.h"
 #include "trismooth/smoothing/rings/analysed_mesh.h"
 #include "trismooth/smoothing/smooth.h"
+#include "trismooth/space/plane_smoothing.h"
 
 namespace trismooth {
 
@@ -74,7 +77,9 @@ class MeshPlan::Implementation {
   /// Of the mesh of which the plan was made, or one that is the same.
   SmoothingResult smooth(const OpenMeshView& view) {
     SmoothingResult result = std::visit([this](const auto& points) { return smooth_points(points); }, view.points);
-    result.layers = *layers_;
+    if (layers_) {
+      result.layers = *layers_;
+    }
     if (result.untangling && !result.untangling->turned.empty()) {
       result.untangling->turned = of_faces(result.untangling->turned);
     }
@@ -126,7 +131,8 @@ class MeshPlan::Implementation {
         write(pairs, v, std::array{copy[v].x, copy[v].y});
       }
     }
-    if (!layers_ && keep_layers(result.layers, flat_->fixed())) {
+    const bool is_over = result.inverted < 0;  // before layers were looked for
+    if (!layers_ && !is_over && keep_layers(result.layers, flat_->fixed())) {
       analysed_.reset();
     }
     return result;
@@ -146,6 +152,11 @@ class MeshPlan::Implementation {
 
   template <class T>
   SmoothingResult smooth_in_space(const NumberRows<T>& points, const NumberRows<const T>& read) {
+    return limited(options_, backend_of(options_).name(), [&] { return smoothed_in_space(points, read); });
+  }
+
+  template <class T>
+  SmoothingResult smoothed_in_space(const NumberRows<T>& points, const NumberRows<const T>& read) {
     constexpr Storage storage = storage_of<T>;
     make_in_space();
     std::vector<double> xyz = triples_of(read);
@@ -209,18 +220,16 @@ class MeshPlan::Implementation {
 };
 
 MeshPlan::MeshPlan(const ConstOpenMeshView& mesh, const MeshConstraints& constraints, const SmoothingOptions& options)
-    : implementation_(std::make_unique<Implementation>(mesh, constraints, options)) {}
+    : implementation_(planned(options, [&] { return std::make_unique<Implementation>(mesh, constraints, options); })) {}
 
 MeshPlan::MeshPlan(MeshPlan&&) noexcept = default;
 MeshPlan& MeshPlan::operator=(MeshPlan&&) noexcept = default;
 MeshPlan::~MeshPlan() = default;
 
 SmoothingResult MeshPlan::smooth_view(const OpenMeshView& mesh) {
-  if (implementation_ == nullptr) {
-    throw std::logic_error("this plan has been moved from");
-  }
-  implementation_->require_same(mesh);
-  return implementation_->smooth(mesh);
+  Implementation& plan = not_moved_from(implementation_);
+  plan.require_same(mesh);
+  return plan.smooth(mesh);
 }
 
 SmoothingResult smooth_open_mesh(const OpenMeshView& mesh, const MeshConstraints& constraints,
@@ -228,7 +237,9 @@ SmoothingResult smooth_open_mesh(const OpenMeshView& mesh, const MeshConstraints
   const ConstOpenMeshView read{
       mesh.mesh, std::visit([](const auto& points) -> decltype(ConstOpenMeshView::points) { return constant(points); },
                             mesh.points)};
-  return MeshPlan(read, constraints, options).implementation_->smooth(mesh);
+  options.validate();
+  return limited(options, backend_of(options).name(),
+                 [&] { return MeshPlan(read, constraints, options).implementation_->smooth(mesh); });
 }
 
 }  // namespace trismooth

@@ -1,7 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/obj/obj_statements.h"
 
 #include <algorithm>
+#include <memory>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/text/blanks.h"
@@ -48,8 +52,8 @@ void ObjStatements::add_other(std::string_view keyword) {
 }
 
 void ObjStatements::move_to(MeshDocument& document) {
-  materials_.move_to(document.cell_arrays, "material", document.cells.size());
-  groups_.move_to(document.cell_arrays, "group", document.cells.size());
+  materials_.move_to(document, "material");
+  groups_.move_to(document, "group");
   std::string list = has_colours_or_weights_ ? "vertex colours or weights" : "";
   for (const std::string& keyword : others_) {
     add_to_list(list, keyword);
@@ -65,11 +69,34 @@ void ObjStatements::CellNumbering::start(std::string name, std::size_t cells) {
   current_ = names_.try_emplace(std::move(name), static_cast<std::int32_t>(names_.size())).first->second;
 }
 
-void ObjStatements::CellNumbering::move_to(std::vector<DataArray>& arrays, std::string array_name, std::size_t cells) {
-  if (used_) {
-    numbers_.resize(cells, current_);
-    arrays.push_back(make_data_array(std::move(array_name), 1, std::move(numbers_)));
+void ObjStatements::CellNumbering::move_to(MeshDocument& document, std::string array_name) {
+  if (!used_) {
+    return;
   }
+  numbers_.resize(document.cells.size(), current_);
+  std::set<std::pair<std::int32_t, int>> used;
+  std::pair<std::int32_t, int> last{-1, -1};
+  for (std::size_t cell = 0; cell < numbers_.size(); ++cell) {
+    const std::pair now{numbers_[cell], cell_type::dimension(document.cells.types[cell])};
+    if (now != last) {
+      used.insert(last = now);
+    }
+  }
+  std::vector<const std::string*> names(names_.size());
+  for (const auto& [name, number] : names_) {
+    names[static_cast<std::size_t>(number)] = &name;
+  }
+  ArrayDescription description;
+  for (const auto& [number, dimension] : used) {
+    if (number >= 0 && !names[static_cast<std::size_t>(number)]->empty()) {
+      description.value_names.push_back({number, dimension, *names[static_cast<std::size_t>(number)]});
+    }
+  }
+  DataArray array = make_data_array(std::move(array_name), 1, std::move(numbers_));
+  if (!description.empty()) {
+    array.description = std::make_shared<const ArrayDescription>(std::move(description));
+  }
+  document.cell_arrays.push_back(std::move(array));
 }
 
 }  // namespace trismooth

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
@@ -69,8 +70,8 @@ class ObjStatements {
   class CellNumbering {
    public:
     void start(std::string name, std::size_t cells);
-    /// Adds the array of all `cells` cells, if there was any statement.
-    void move_to(std::vector<DataArray>& arrays, std::string array_name, std::size_t cells);
+    /// Adds the array of all cells, with the names of its numbers, if there was any statement.
+    void move_to(MeshDocument& document, std::string array_name);
 
    private:
     std::map<std::string, std::int32_t, std::less<>> names_;

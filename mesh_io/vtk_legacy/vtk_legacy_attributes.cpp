@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/vtk_legacy/vtk_legacy_attributes.h"
 
 #include <algorithm>
@@ -293,7 +294,6 @@ void read_vtk_legacy_field(VtkLegacyInput& input, MeshDocument& document) {
 }
 
 void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, VtkLegacyLayout& layout) {
-  using Section = VtkLegacyLayout::Section;
   ArrayReader points(
       input, document.notes,
       {document.point_arrays, layout.point_names, "point", document.point_count(), nullptr, &layout.point_values});
@@ -308,16 +308,17 @@ void read_vtk_legacy_attributes(VtkLegacyInput& input, MeshDocument& document, V
     const std::string token(input.next_keyword("a keyword"));
     const std::string keyword = lower_case(token);
     if (keyword == "point_data" || keyword == "cell_data") {
-      layout.last_section = keyword == "point_data" ? Section::point_data : Section::cell_data;
+      layout.last_section =
+          keyword == "point_data" ? VtkLegacyLayout::Section::point_data : VtkLegacyLayout::Section::cell_data;
       const std::uint64_t expected =
-          layout.last_section == Section::point_data ? document.point_count() : document.cells.size();
+          layout.last_section == VtkLegacyLayout::Section::point_data ? document.point_count() : document.cells.size();
       const std::uint64_t rows = input.next_count("the number of rows");
       if (rows != expected) {
         input.fail(token + " declares " + std::to_string(rows) + " rows; expected " + std::to_string(expected));
       }
       annotations.start_section(layout.last_section, begin);
     } else {
-      ArrayReader& section = layout.last_section == Section::point_data ? points : cells;
+      ArrayReader& section = layout.last_section == VtkLegacyLayout::Section::point_data ? points : cells;
       if (!section.read_attribute(keyword)) {
         input.fail("unknown keyword " + trismooth::quoted(token) + " in the point and cell data");
       }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/cli/interrupt.h"
 
 #include <algorithm>
@@ -38,6 +39,11 @@ void leave(std::string_view words) {
   _exit(static_cast<int>(ExitCode::cancelled));
 }
 
+void leave_with_some_written() {
+  OutputFile::remove_unfinished();
+  leave("trismooth: error: cancelled; some of the output is written already\n");
+}
+
 extern "C" void handle_interrupt(int /*signal*/) {
   if (leaving) {
     return;  // another thread is at it
@@ -47,8 +53,7 @@ extern "C" void handle_interrupt(int /*signal*/) {
     leave("trismooth: error: cancelled\n");
   }
   if (came_too_late.exchange(true) && !leaving.exchange(true)) {
-    OutputFile::remove_unfinished();
-    leave("trismooth: error: cancelled; some of the output is written already\n");
+    leave_with_some_written();
   }
 }
 
@@ -72,6 +77,12 @@ void end_on_interrupt(InterruptWords words) {
     if (before.sa_handler != SIG_IGN) {
       ::sigaction(signal, &action, nullptr);
     }
+  }
+}
+
+void end_where_interrupted() {
+  if (came_too_late && !leaving.exchange(true)) {
+    leave_with_some_written();
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -13,6 +14,10 @@ enum class InterruptWords : std::uint8_t { said, none };
 /// changes nothing, the run comes to its end; a second one ends it. A signal that is ignored (a job in the background
 /// of a script, nohup) stays ignored.
 void end_on_interrupt(InterruptWords words = InterruptWords::said);
+
+/// For a run that writes several meshes, between two of them: ends the process, as a second signal would, where the
+/// first came while one was being put in its place.
+void end_where_interrupted();
 
 /// From now on these signals change nothing: all is done.
 void ignore_interrupts();

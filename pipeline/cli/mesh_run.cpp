@@ -1,13 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/cli/mesh_run.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <new>
 #include <optional>
+#include <set>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "trismooth/base/errors.h"
 #include "trismooth/base/machine/out_of_memory.h"
@@ -69,12 +77,90 @@ void print_notes(const PipelineResult& result, Verbosity verbosity, std::ostream
   }
 }
 
+/// Those that the steps of a series write; of other runs none.
+std::vector<std::filesystem::path> meshes_of_series(const PipelineOptions& options) {
+  std::vector<std::filesystem::path> meshes;
+  if (options.deformation && options.deformation->is_series) {
+    for (std::size_t step = 0; step < options.deformation->step_count(); ++step) {
+      meshes.push_back(output_of_step(*options.output, step, options.deformation->step_count()));
+    }
+  }
+  return meshes;
+}
+
+/// The files that a run reads and writes, but for reports.
+std::vector<std::filesystem::path> other_files(const PipelineOptions& options) {
+  std::vector<std::filesystem::path> files{options.input};
+  for (const auto& file : {options.written(), options.fixed_ids}) {
+    if (file) {
+      files.push_back(*file);
+    }
+  }
+  if (options.deformation) {
+    std::ranges::copy(options.deformation->steps, std::back_inserter(files));
+    std::ranges::copy(meshes_of_series(options), std::back_inserter(files));
+  }
+  return files;
+}
+
 /// A report must not overwrite what is read or written in the same run, under whatever name.
 void require_own_file(const std::filesystem::path& report, const PipelineOptions& options) {
   std::error_code error;  // what does not exist is no other's file
-  for (const auto& other : {std::optional(options.input), options.written(), options.fixed_ids}) {
-    if (other && std::filesystem::equivalent(report, *other, error)) {
-      throw std::invalid_argument("--report " + report.string() + ": is the same file as " + other->string());
+  for (const std::filesystem::path& other : other_files(options)) {
+    if (std::filesystem::equivalent(report, other, error)) {
+      throw std::invalid_argument("--report " + report.string() + ": is the same file as " + other.string());
+    }
+  }
+}
+
+/// Nor may a report overwrite another one, which is not there yet.
+void require_each_once(std::span<const std::filesystem::path> reports) {
+  std::set<std::filesystem::path> places;
+  for (const std::filesystem::path& report : reports) {
+    std::error_code error;  // where there is no such place, making the file says so
+    if (!places.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(report), error)).second && !error) {
+      throw std::invalid_argument("--report " + report.string() + ": is given twice");
+    }
+  }
+}
+
+/// Options for ranks and pieces that nothing comes of where there are none.
+void warn_of_options_for_ranks(const MeshRunSettings& settings, bool over_ranks, std::ostream& err) {
+  const PipelineOptions& options = settings.pipeline;
+  std::vector<std::string_view> names;
+  if (options.single) {
+    names.emplace_back("--single");
+  }
+  if (options.gather) {
+    names.emplace_back("--gather");
+  }
+  if (options.partition) {
+    names.emplace_back("--partition");
+  }
+  if (!over_ranks && !names.empty()) {
+    print_warning(err, fmt::format("{} has no effect: it is for runs over MPI ranks", fmt::join(names, ", ")));
+  }
+}
+
+/// Nor may the mesh of a step overwrite what steps are made of; that of a single one may, as elsewhere, its input.
+void require_own_meshes(const PipelineOptions& options) {
+  if (!options.deformation) {
+    return;
+  }
+  std::vector<std::filesystem::path> sources = options.deformation->steps;
+  std::vector<std::filesystem::path> meshes = meshes_of_series(options);
+  if (options.deformation->is_series) {
+    sources.push_back(options.input);
+  } else {
+    meshes.push_back(*options.output);
+  }
+  for (const std::filesystem::path& mesh : meshes) {
+    std::error_code error;  // what does not exist is no other's file
+    if (std::ranges::any_of(sources, [&](const std::filesystem::path& source) {
+          return std::filesystem::equivalent(mesh, source, error);
+        })) {
+      throw std::invalid_argument("the mesh of a step would take the place of " + mesh.string() +
+                                  ", which the steps are made of; give OUTPUT another name");
     }
   }
 }
@@ -91,6 +177,13 @@ void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
   if (const auto& target = options.written(); target && !is_standard_stream(*target)) {
     const OutputFile attempt(*target);
   }
+  require_own_meshes(options);
+  for (const std::filesystem::path& step : options.deformation.value_or(Deformation{}).steps) {
+    if (std::error_code error; !std::filesystem::exists(step, error)) {
+      throw ReadError(step, "is a step of the boundary, and there is no such file; nothing has been written");
+    }
+  }
+  require_each_once(settings.reports);
   for (const std::filesystem::path& report : settings.reports) {
     require_own_file(report, options);
     const OutputFile attempt(report);
@@ -104,6 +197,20 @@ std::size_t report_bytes(const PipelineResult& result) {
   constexpr std::size_t of_a_region = 8192;
   return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0) +
          result.regions_before.size() * of_a_region;
+}
+
+/// How a gate went; of several steps the one that is furthest from it tells.
+GateOutcome outcome_of(const Gate& gate, const PipelineResult& result) {
+  if (result.deformation) {
+    std::optional<GateOutcome> worst;
+    for (const DeformedStep& step : result.deformation->steps) {
+      const GateOutcome outcome = check_gate(gate, step.quality, step.quadratic, &step);
+      worst = !worst || outcome.is_worse_than(*worst) ? outcome : worst;
+    }
+    return worst.value();
+  }
+  return result.after ? check_gate(gate, *result.after, result.quadratic_after)
+                      : check_gate(gate, result.before, result.quadratic_before);
 }
 
 /// What a run leaves beside the mesh: its reports, and the table on standard output. It is all there, or nothing is.
@@ -126,8 +233,7 @@ class RunOutputs {
   void prepare(const PipelineResult& result) {
     is_prepared_ = true;
     for (const Gate& gate : settings_.gates) {
-      record_.gates.push_back(result.after ? check_gate(gate, *result.after, result.quadratic_after)
-                                           : check_gate(gate, result.before, result.quadratic_before));
+      record_.gates.push_back(outcome_of(gate, result));
     }
     write_reports(result);
     if (settings_.verbosity != Verbosity::quiet) {
@@ -258,7 +364,7 @@ PipelineResult run_watched(PipelineOptions options, Verbosity verbosity, RunOutp
 
 }  // namespace
 
-void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
+void add_hold_options(CLI::App& command, MeshRunSettings& settings) {
   PipelineOptions& options = settings.pipeline;
   constexpr bool repeatable = true;
   add_parsed_option(
@@ -277,20 +383,6 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
       "gives that number (medit:ref=7). Repeatable; none: no set fixes any [all that do not cover an area]",
       [&options](const std::string& text) { options.fixed_sets.push_back(text); }, repeatable)
       ->group(option_group::constraints);
-  add_parsed_option(command, "--project", alternatives<Projection>(),
-                    "For a mesh that is not flat, a surface z(x, y): smooth it in x and y; z is a value at points, "
-                    "which --fields keep leaves as it is",
-                    [&options](const std::string& text) { options.project = parse_choice<Projection>(text); })
-      ->group(option_group::coordinates);
-  command
-      .add_flag("--geographic", options.geographic,
-                "x is longitude and y latitude, in degrees: shapes are those on the sphere, also across the date line")
-      ->group(option_group::coordinates);
-  add_parsed_option(command, "--merge", "DISTANCE",
-                    "Corners of triangles that are no further apart count as one vertex, in the file's unit; they move "
-                    "together, and the file keeps all of them [none are joined]",
-                    [&options](const std::string& text) { options.merge = parse_finite(text, 0); })
-      ->group(option_group::constraints);
   CLI::Option* const ids = add_parsed_option(
       command, "--fixed-ids", "FILE",
       "Text file of vertices to fix: their places in the mesh file, which count from 0 whatever numbers the file gives",
@@ -307,13 +399,26 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
       ->group(option_group::constraints);
 }
 
-void add_result_options(CLI::App& command, MeshRunSettings& settings) {
-  add_format_option(command, settings.pipeline.format)->group(option_group::running);
-  add_parsed_option(command, "--threads", "N", "CPU threads; the result does not depend on it [one a core]",
-                    [&settings](const std::string& text) {
-                      settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads());
-                    })
-      ->group(option_group::running);
+void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
+  add_hold_options(command, settings);
+  PipelineOptions& options = settings.pipeline;
+  add_parsed_option(command, "--project", alternatives<Projection>(),
+                    "For a mesh that is not flat, a surface z(x, y): smooth it in x and y; z is a value at points, "
+                    "which --fields keep leaves as it is",
+                    [&options](const std::string& text) { options.project = parse_choice<Projection>(text); })
+      ->group(option_group::coordinates);
+  command
+      .add_flag("--geographic", options.geographic,
+                "x is longitude and y latitude, in degrees: shapes are those on the sphere, also across the date line")
+      ->group(option_group::coordinates);
+  add_parsed_option(command, "--merge", "DISTANCE",
+                    "Corners of triangles that are no further apart count as one vertex, in the file's unit; they move "
+                    "together, and the file keeps all of them [none are joined]",
+                    [&options](const std::string& text) { options.merge = parse_finite(text, 0); })
+      ->group(option_group::constraints);
+}
+
+void add_piece_options(CLI::App& command, MeshRunSettings& settings) {
   command
       .add_flag(
           "--single", settings.pipeline.single,
@@ -324,6 +429,15 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
       .add_flag("--gather", settings.pipeline.gather,
                 "Of a mesh in pieces over MPI ranks: rank 0 does all but the sweeps, with the whole mesh in its memory "
                 "[it does where something is not done in pieces: --slide, untangling, ...]")
+      ->group(option_group::running);
+}
+
+void add_result_options(CLI::App& command, MeshRunSettings& settings) {
+  add_format_option(command, settings.pipeline.format)->group(option_group::running);
+  add_parsed_option(command, "--threads", "N", "CPU threads; the result does not depend on it [one a core]",
+                    [&settings](const std::string& text) {
+                      settings.pipeline.smoothing.threads = parse_integer(text, 0, most_threads());
+                    })
       ->group(option_group::running);
   constexpr bool repeatable = true;
   add_parsed_option(
@@ -356,14 +470,25 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
                      "Print all metrics, the worst elements, and every sweep, note and time");
 }
 
+void add_annotations_options(CLI::App& command, MeshRunSettings& settings) {
+  command
+      .add_flag("--annotate", settings.pipeline.annotate,
+                "Add arrays to VTK or MSH output, or to PLY made of another format, in place of earlier ones: "
+                "trismooth:shape, trismooth:shape_before (cells), "
+                "trismooth:fixed, trismooth:displacement (points)")
+      ->group(option_group::results);
+  add_annotated_metrics_option(command, settings);
+}
+
 void add_annotated_metrics_option(CLI::App& command, MeshRunSettings& settings) {
-  add_parsed_option(command, "--annotate-metrics", "M,M,...",
-                    "Metrics that --annotate shows: shape, min_angle, ...; all names are in README [shape]",
-                    [&settings](const std::string& text) {
-                      AnnotatedMetrics annotated = parse_metrics(text);
-                      settings.pipeline.annotated_metrics = std::move(annotated.metrics);
-                      settings.pipeline.annotated_size_ratio = annotated.size_ratio;
-                    })
+  add_parsed_option(
+      command, "--annotate-metrics", "M,M,...",
+      "Metrics that --annotate shows: shape, min_angle, ...; the message for an unknown one lists all [shape]",
+      [&settings](const std::string& text) {
+        AnnotatedMetrics annotated = parse_metrics(text);
+        settings.pipeline.annotated_metrics = std::move(annotated.metrics);
+        settings.pipeline.annotated_size_ratio = annotated.size_ratio;
+      })
       ->needs("--annotate")
       ->group(option_group::results);
 }
@@ -382,6 +507,9 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
     return ExitCode::done;
   }
   try_outputs(settings, environment.over_ranks);
+  if (verbosity != Verbosity::quiet) {
+    warn_of_options_for_ranks(settings, environment.over_ranks, environment.err);
+  }
   RunOutputs outputs(settings, environment);
   const PipelineResult result = run_watched(options, verbosity, outputs, environment);
   if (!outputs.is_prepared()) {

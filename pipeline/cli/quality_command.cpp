@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/subcommands.h"
@@ -14,6 +16,9 @@ namespace {
 
 /// What is asked for is arrays: a file without them would be no answer.
 void require_arrays(const std::filesystem::path& path) {
+  if (path.string().starts_with('-') && !is_standard_stream(path)) {
+    throw std::invalid_argument("takes the name of a file; '" + path.string() + "' is an option");
+  }
   const auto format = format_of(path);
   if (!format || has_arrays(*format)) {
     return;  // an unknown extension is told where the file is to be made
@@ -38,6 +43,7 @@ Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environm
       ->required();
   add_mesh_options(command, *settings);
   add_result_options(command, *settings);
+  add_piece_options(command, *settings);
   add_parsed_option(command, "--annotate", "OUT",
                     "Write the mesh with arrays that show what was found: trismooth:shape (cells) and trismooth:fixed "
                     "(points)",

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/rank_job.h"
+#include "trismooth/pipeline/cli/smoothing_options.h"
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cuda_or_cpu.h"
 #include "trismooth/pipeline/cuda_support.h"
@@ -38,7 +40,7 @@ struct SmoothSettings {
 
 void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
   SmoothingOptions& options = settings.run.pipeline.smoothing;
-  const char* const group = "Smoothing";
+  const char* const group = option_group::smoothing;
   add_enum_option(command, "--method", options.method, explained_texts<Method>())->group(group);
   add_enum_option(command, "--form", options.form,
                   "a: all moves from the positions before the sweep; b: moves see the neighbours already moved, which "
@@ -49,10 +51,6 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
       "Before the sweeps, move vertices so that no triangle is inverted, where that can be done; auto: with "
       "mean-ratio")
       ->group(group);
-  add_enum_option(command, "--layers", options.layers,
-                  "Layers of flat triangles with angles near 90 degrees, at walls and in thin insulation. auto: held; "
-                  "keep: all that is flat in one direction is; smooth: moved as all others")
-      ->group(group);
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; checks are in double always")
       ->group(group);
   add_enum_option(command, "--guard", settings.guard,
@@ -61,26 +59,12 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
 }
 
 void add_mean_ratio_options(CLI::App& command, PipelineOptions& pipeline) {
-  MeanRatioOptions& options = pipeline.smoothing.mean_ratio;
-  const char* const group = "Method mean-ratio";
-  add_parsed_option(command, "--size-weight", "X",
-                    "How much the sizes of triangles count beside their shapes; 0: not at all [1]",
-                    [&options](const std::string& text) { options.size_weight = parse_finite(text, 0); })
-      ->group(group);
+  add_target_options(command, pipeline.smoothing.mean_ratio, "1", "3 where the mean shape is 0.8 or more, else 2");
   add_parsed_option(command, "--size-array", "NAME",
                     "Array of the sizes to aim at, in place of those that triangles have: edge lengths at points, or "
                     "areas of cells; only their relations count [none]",
                     [&pipeline](const std::string& text) { pipeline.size_array = text; })
-      ->group(group);
-  add_parsed_option(
-      command, "--power", "P",
-      "Of 1/shape in the energy, 1 to 8; the higher, the more the worst triangles count [3 where the mean shape is "
-      "0.8 or more, else 2]",
-      [&options](const std::string& text) { options.power = static_cast<int>(parse_integer(text, 1, 8)); })
-      ->group(group);
-  add_enum_option(command, "--target", options.target,
-                  "Shapes to aim at; input-shape: as flat as the edges nearby are, for layers that are flat on purpose")
-      ->group(group);
+      ->group(option_group::mean_ratio);
 }
 
 void add_slide_options(CLI::App& command, Sliding& slide) {
@@ -112,22 +96,12 @@ void add_slide_options(CLI::App& command, Sliding& slide) {
       ->group(group);
 }
 
-void add_stop_options(CLI::App& command, SmoothingOptions& options) {
-  const char* const group = "Stopping";
+void add_time_limit_option(CLI::App& command, SmoothingOptions& options) {
   add_parsed_option(
-      command, "--max-sweeps", "N", "At most N sweeps; 0: no limit [1000]",
-      [&options](const std::string& text) { options.max_sweeps = parse_integer(text, std::int64_t{0}, INT64_MAX); })
-      ->group(group);
-  add_parsed_option(command, "--tolerance", "X",
-                    "Stop when no vertex moves by more than X of its edge length; 0: only when none moves [1e-6]",
-                    [&options](const std::string& text) { options.tolerance = parse_finite(text, 0); })
-      ->group(group);
-  add_parsed_option(command, "--time-limit", "SECONDS", "Stop sweeping after this time [none]",
-                    [&options](const std::string& text) { options.time_limit_seconds = parse_finite(text, 0); })
-      ->group(group);
-  add_parsed_option(command, "--target-quality", "X", "Stop when the smallest shape of all triangles reaches X [none]",
-                    [&options](const std::string& text) { options.target_quality = parse_finite(text); })
-      ->group(group);
+      command, "--time-limit", "SECONDS",
+      "Take no longer than this for the smoothing: sweeps end early enough for the never-worse check [none]",
+      [&options](const std::string& text) { options.time_limit_seconds = parse_finite(text, 0); })
+      ->group(option_group::stopping);
 }
 
 void add_device_options(CLI::App& command, SmoothSettings& settings) {
@@ -227,20 +201,17 @@ Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environme
                     [&options](const std::string& text) { options.output = text; })
       ->required();
   add_algorithm_options(command, *settings);
+  add_layers_option(command, options.smoothing, "held");
   add_mean_ratio_options(command, options);
   add_slide_options(command, options.slide);
   add_stop_options(command, options.smoothing);
+  add_time_limit_option(command, options.smoothing);
   add_mesh_options(command, settings->run);
   add_field_options(command, options);
   add_device_options(command, *settings);
   add_result_options(command, settings->run);
-  command
-      .add_flag("--annotate", options.annotate,
-                "Add arrays to VTK or MSH output, or to PLY made of another format, in place of earlier ones: "
-                "trismooth:shape, trismooth:shape_before (cells), "
-                "trismooth:fixed, trismooth:displacement (points)")
-      ->group(option_group::results);
-  add_annotated_metrics_option(command, settings->run);
+  add_piece_options(command, settings->run);
+  add_annotations_options(command, settings->run);
   constexpr bool runs_pipeline = true;
   return {&command, [settings, &environment] { return run_smooth(*settings, environment); }, runs_pipeline};
 }

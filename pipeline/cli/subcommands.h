@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <functional>
@@ -19,6 +20,7 @@ struct Subcommand {
 
 /// Each adds its command with its options to `app`; one source file a command. `environment` must outlive the result.
 Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environment);
+Subcommand add_deform_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_info_command(CLI::App& app, const CommandEnvironment& environment);

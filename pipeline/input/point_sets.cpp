@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/input/point_sets.h"
 
 #include <algorithm>
@@ -257,9 +258,19 @@ class SetFinder {
       find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
     }
     if (found.empty()) {
-      throw complain_of_set(name, names_, arrays);
+      throw complain_of_set(name, names_, arrays, meant_by(arrays, name));
     }
     return found;
+  }
+
+  /// What a name may have been meant to be: an array's value of that name.
+  std::string meant_by(std::span<const std::string> arrays, const std::string& name) const {
+    const auto has_points = [&](const std::string& array) {
+      const std::vector<std::uint8_t> flags = points_of_label(document_, {array, name});
+      return std::ranges::find(flags, 1) != flags.end();
+    };
+    const auto found = std::ranges::find_if(arrays, has_points);
+    return found == arrays.end() ? std::string() : SetLabel{*found, name}.name();
   }
 
   /// The set of the points of a label, which is a new one where it has not been asked for before.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/input/set_labels.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include "trismooth/base/text/digits.h"
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/base/text/plain_name.h"
+#include "trismooth/base/text/suggestion.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/pipeline/input/value_numbers.h"
@@ -194,10 +196,14 @@ std::invalid_argument complain_of_value(const SetLabel& label, std::vector<std::
 }
 
 std::invalid_argument complain_of_set(const std::string& name, std::span<const std::string> sets,
-                                      std::span<const std::string> arrays) {
+                                      std::span<const std::string> arrays, const std::string& meant) {
+  if (!meant.empty()) {
+    return std::invalid_argument("the file has no point set '" + name + "' to hold; did you mean '" + meant + "'?");
+  }
   const std::string labels =
-      arrays.empty() ? "" : "; points are named as ARRAY=NUMBER by its arrays: " + first_of(arrays);
-  return std::invalid_argument("the file has no point set '" + name + "' to hold; it has: " + first_of(sets) + labels);
+      arrays.empty() ? "" : "; points are named as ARRAY=NUMBER, or ARRAY=NAME, by its arrays: " + first_of(arrays);
+  return std::invalid_argument("the file has no point set '" + name + "' to hold" + did_you_mean(name, sets) +
+                               "; it has: " + first_of(sets) + labels);
 }
 
 }  // namespace trismooth

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -45,8 +46,9 @@ std::vector<std::string> label_values(const MeshDocument& document, std::string_
 /// The error of a label that nothing has, which lists `values`, of one document or of several.
 std::invalid_argument complain_of_value(const SetLabel& label, std::vector<std::string> values);
 
-/// The error of a name that neither a set has nor an array that gives labels. It lists these.
+/// The error of a name that neither a set has nor an array that gives labels. It lists these, and says what was `meant`
+/// where that is known.
 std::invalid_argument complain_of_set(const std::string& name, std::span<const std::string> sets,
-                                      std::span<const std::string> arrays);
+                                      std::span<const std::string> arrays, const std::string& meant = {});
 
 }  // namespace trismooth

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/input/triangle_cells.h"
 
 #include <algorithm>
@@ -187,7 +188,7 @@ std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int
   }
   if (other_cells > repeating_triangles) {
     notes.push_back(counted(other_cells - repeating_triangles, "cell", "cells") +
-                    " of other types than triangle: kept as they are, their vertices held fixed");
+                    " of other types than triangle: not smoothed, their vertices held fixed");
   }
   return notes;
 }

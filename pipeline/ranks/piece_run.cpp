@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/ranks/piece_run.h"
 
 #include <algorithm>
@@ -70,19 +71,19 @@ class PieceMesh final : public StagedMesh {
  public:
   /// `reading`: of an input that is not in pieces. The options outlive it.
   PieceMesh(const PipelineOptions& options, FileReading reading, std::shared_ptr<const mpi::Communicator> ranks)
-      : run_(options), options_(options), reading_(reading), ranks_(std::move(ranks)), workers_(run_.workers) {}
+      : run_(options), reading_(reading), ranks_(std::move(ranks)) {}
 
   RunContext& context() override { return run_; }
   void together(const std::function<void()>& work) const override { agree(*ranks_, work); }
   std::int64_t peak_memory() const override { return ranks_->largest(peak_memory_bytes()); }
 
   void read() override {
-    if (names_parallel_file(options_.input)) {
+    if (names_parallel_file(run_.options.input)) {
       read_mesh_in_pieces();
     } else {
       read_one_file();
     }
-    if (const std::string_view option = what_needs_whole_mesh(options_); !option.empty()) {
+    if (const std::string_view option = what_needs_whole_mesh(run_.options); !option.empty()) {
       throw NeedsWholeMesh{std::string(option)};
     }
     if (ranks_->size() == 1 && are_numbered_without_gaps(files_)) {
@@ -91,10 +92,10 @@ class PieceMesh final : public StagedMesh {
     if (const std::string_view kind = what_is_not_joined(files_, *ranks_); !kind.empty()) {
       throw NeedsWholeMesh{std::string(kind)};
     }
-    if (options_.output && options_.fields != Fields::keep && !arrays_of_places_.empty()) {
+    if (run_.options.output && run_.options.fields != Fields::keep && !arrays_of_places_.empty()) {
       throw NeedsWholeMesh{"the values of '" + arrays_of_places_.front() + "', which follow the mesh"};
     }
-    if (options_.fixed_sets.empty()) {
+    if (run_.options.fixed_sets.empty()) {
       if (const std::string markers = unjudged_markers(files_, *ranks_); !markers.empty()) {
         throw NeedsWholeMesh{"what " + markers + " marks"};
       }
@@ -105,29 +106,29 @@ class PieceMesh final : public StagedMesh {
     run_.result.notes = read_notes_;
     run_.result.losses = read_losses_;
     mesh_ = join_pieces(files_, *ranks_);
-    constraints_ = find_rank_constraints(files_, mesh_, options_, *ranks_);
-    topology_.emplace(mesh_, constraints_.named, owners(), options_.input, ranks_, workers_);
-    if (has_repeated_triangles(*topology_, workers_)) {
+    constraints_ = find_rank_constraints(files_, mesh_, run_.options, *ranks_);
+    topology_.emplace(mesh_, constraints_.named, owners(), run_.options.input, ranks_, run_.workers);
+    if (has_repeated_triangles(*topology_, run_.workers)) {
       throw NeedsWholeMesh{"triangles that are listed again"};
     }
-    regions_ = find_rank_regions(files_, *topology_, options_.region_arrays);
-    held_ = topology_->held(regions_.of_triangle, workers_);
+    regions_ = find_rank_regions(files_, *topology_, run_.options.region_arrays);
+    held_ = topology_->held(regions_.of_triangle, run_.workers);
     std::ranges::move(settle_implied_sets(files_, mesh_, *topology_, held_),
                       std::back_inserter(run_.result.input.point_sets));
     points_ = points_of(files_, mesh_);
     enter_frame();
-    reversed_ = topology_->reversed(local_.points, workers_);
-    layers_ = mpi::hold_layers(topology_->overlap(), local_.points, reversed_, options_.smoothing.used_layers(), false,
-                               held_, *ranks_, workers_);
+    reversed_ = topology_->reversed(local_.points, run_.workers);
+    layers_ = mpi::hold_layers(topology_->overlap(), local_.points, reversed_, run_.options.smoothing.used_layers(),
+                               false, held_, *ranks_, run_.workers);
     summarise();
     quality_.emplace(*topology_, reversed_, held_, regions_.of_triangle, regions_.count());
   }
 
-  MeshQuality quality() override {
-    MeshQuality quality{
-        quality_->report(local_.points, local_.frame, workers_.count()), quality_->regions(local_.points), {}};
+  QualityOfMesh quality() override {
+    QualityOfMesh quality{
+        quality_->report(local_.points, local_.frame, run_.workers.count()), quality_->regions(local_.points), {}};
     QualityReport& report = quality.report;
-    if (!run_.result.smoothing && options_.output && options_.smoothing.untangles() &&
+    if (!run_.result.smoothing && run_.options.output && run_.options.smoothing.untangles() &&
         report.inverted + report.degenerate > 0) {
       throw NeedsWholeMesh{"the untangling of inverted triangles"};
     }
@@ -144,11 +145,11 @@ class PieceMesh final : public StagedMesh {
   }
 
   PrecisionLoss precision_loss() override {
-    return quality_->precision_loss(local_.points, local_.frame.exponent, workers_.count());
+    return quality_->precision_loss(local_.points, local_.frame.exponent, run_.workers.count());
   }
 
   CoarseBoundary coarse_boundary() override {
-    return find_coarse_boundary(*topology_, local_.points, reversed_, held_, workers_.count());
+    return find_coarse_boundary(*topology_, local_.points, reversed_, held_, run_.workers.count());
   }
 
   SmoothingResult smooth() override {
@@ -161,7 +162,7 @@ class PieceMesh final : public StagedMesh {
     enter_frame();
     const Stopwatch watch;
     run_.result.size_change =
-        quality_->size_change(before.points, before.frame, local_.points, local_.frame, workers_.count());
+        quality_->size_change(before.points, before.frame, local_.points, local_.frame, run_.workers.count());
     note_growth_bound(before);
     run_.result.timings_ms.check_after += watch.milliseconds();
     return smoothing;
@@ -171,10 +172,10 @@ class PieceMesh final : public StagedMesh {
     if (const std::vector<std::string> dropped = drop_annotations(files_); !dropped.empty()) {
       run_.note(note_of_dropped_annotations(dropped));
     }
-    if (!options_.single) {
-      write_pieces(files_, *options_.output, *ranks_, workers_, completed, options_.beside);
+    if (!run_.options.single) {
+      write_pieces(files_, *run_.options.output, *ranks_, run_.workers, completed, run_.options.beside);
     } else {
-      write_single(files_, options_, *ranks_, workers_, run_.result.losses, completed);
+      write_single(files_, run_.options, *ranks_, run_.workers, run_.result.losses, completed);
     }
   }
 
@@ -184,8 +185,8 @@ class PieceMesh final : public StagedMesh {
     // (What is no file on a disk can be read once.)
     const PipelineResult read = std::exchange(run_.result, {});
     const bool was_read = !read.input.path.empty();
-    const bool reads_file = !names_parallel_file(options_.input) &&
-                            !(was_read && ranks_->any(ranks_->rank() == 0 && !is_file(options_.input)));
+    const bool reads_file = !names_parallel_file(run_.options.input) &&
+                            !(was_read && ranks_->any(ranks_->rank() == 0 && !is_file(run_.options.input)));
     topology_.reset();
     quality_.reset();
     mesh_ = {};
@@ -208,25 +209,27 @@ class PieceMesh final : public StagedMesh {
       }
       return result;
     };
-    PipelineOptions own = options_;
-    if (options_.beside.prepare) {
-      own.beside.prepare = [&](const PipelineResult& result) { options_.beside.prepare(with_what_was_read(result)); };
+    PipelineOptions own = run_.options;
+    if (run_.options.beside.prepare) {
+      own.beside.prepare = [&](const PipelineResult& result) {
+        run_.options.beside.prepare(with_what_was_read(result));
+      };
     }
-    run_.result = with_what_was_read(reads_file ? run_file_gathered(own, ranks_, workers_)
-                                                : run_gathered(files_, own, ranks_, workers_));
+    run_.result = with_what_was_read(reads_file ? run_file_gathered(own, ranks_, run_.workers)
+                                                : run_gathered(files_, own, ranks_, run_.workers));
   }
 
  private:
   void require_output() const {
     agree(*ranks_, [&] {
-      if (ranks_->rank() == 0 && options_.written()) {
-        require_own_pieces(files_, *options_.written(), options_.single);
+      if (ranks_->rank() == 0 && run_.options.written()) {
+        require_own_pieces(files_, *run_.options.written(), run_.options.single);
       }
     });
   }
 
   void read_one_file() {
-    FileInPieces read = read_in_pieces(options_, reading_, *ranks_, workers_);
+    FileInPieces read = read_in_pieces(run_.options, reading_, *ranks_, run_.workers);
     files_ = std::move(read.files);
     run_.result.input = std::move(read.input);
     read_notes_ = std::move(read.notes);
@@ -236,9 +239,9 @@ class PieceMesh final : public StagedMesh {
   }
 
   void read_mesh_in_pieces() {
-    files_ = read_pieces(options_.input, *ranks_, workers_);
+    files_ = read_pieces(run_.options.input, *ranks_, run_.workers);
     require_output();
-    run_.result.input.path = options_.input;
+    run_.result.input.path = run_.options.input;
     run_.result.input.format = files_.file.piece_format;
     std::set<std::string> notes;
     std::set<std::string> losses;
@@ -247,10 +250,10 @@ class PieceMesh final : public StagedMesh {
       losses.insert(piece.document.losses.begin(), piece.document.losses.end());
     }
     // What is said of pieces is said of what one file loses.
-    if (options_.single) {
+    if (run_.options.single) {
       losses.merge(notes);
     }
-    read_notes_ = options_.single ? std::vector<std::string>{} : texts_of_all(notes, *ranks_);
+    read_notes_ = run_.options.single ? std::vector<std::string>{} : texts_of_all(notes, *ranks_);
     read_losses_ = texts_of_all(losses, *ranks_);
     number_vertices(files_, *ranks_);
     check_shared_vertices(files_, *ranks_);
@@ -260,7 +263,7 @@ class PieceMesh final : public StagedMesh {
   /// get work all the same.
   std::vector<std::int32_t> owners() {
     const bool has_enough = std::ssize(files_.file.pieces) >= ranks_->size();
-    const Partition partition = options_.partition.value_or(has_enough ? Partition::keep : Partition::bisect);
+    const Partition partition = run_.options.partition.value_or(has_enough ? Partition::keep : Partition::bisect);
     return partition == Partition::keep
                ? std::vector<std::int32_t>{}
                : find_owners(partition, {points_of(files_, mesh_), mesh_.triangles, mesh_.ghost_triangles}, *ranks_);
@@ -277,7 +280,7 @@ class PieceMesh final : public StagedMesh {
     PipelineResult& result = run_.result;
     const mpi::Overlap& overlap = topology_->overlap();
     cells_ = count_rank_cells(files_, *ranks_);
-    agree(*ranks_, [&] { require_triangles(topology_->triangle_count(), cells_.cells, options_.input); });
+    agree(*ranks_, [&] { require_triangles(topology_->triangle_count(), cells_.cells, run_.options.input); });
     ReasonCounts reasons{};
     std::int64_t vertices = 0;
     for (std::int32_t v = 0; v < overlap.vertex_count(); ++v) {
@@ -288,8 +291,8 @@ class PieceMesh final : public StagedMesh {
     }
     ranks_->sum(reasons);
     if (cells_.cells == 0) {
-      run_.note(names_parallel_file(options_.input) ? "the pieces hold no cells: nothing to smooth"
-                                                    : "the file holds no cells: nothing to smooth");
+      run_.note(names_parallel_file(run_.options.input) ? "the pieces hold no cells: nothing to smooth"
+                                                        : "the file holds no cells: nothing to smooth");
     }
     std::ranges::move(notes_of_other_cells(cells_.others, cells_.repeating, cells_.first_repeating),
                       std::back_inserter(result.notes));
@@ -316,7 +319,7 @@ class PieceMesh final : public StagedMesh {
 
   SmoothingResult smooth_points() {
     const Stopwatch watch;
-    SmoothingOptions options = mpi::agreed_options(options_.smoothing, Constraints{}, mpi::Gather::never, *ranks_);
+    SmoothingOptions options = mpi::agreed_options(run_.options.smoothing, Constraints{}, mpi::Gather::never, *ranks_);
     options.layers = Layers::smooth;  // they are held already
     mpi::OverlapSmoother smoother(ranks_, topology_->lend_overlap(std::move(regions_.of_triangle), held_), options,
                                   Sliding{}, mpi::Gather::never, mpi::OverlapSmoother::Owners::ranks);
@@ -346,7 +349,7 @@ class PieceMesh final : public StagedMesh {
   /// note_growth_bound() of the whole mesh. Each of the free corners is judged by the rank that owns it.
   void note_growth_bound(const LocalPoints& before) {
     const QualityReport& report = run_.result.before;
-    if (!may_have_growth_note(options_.smoothing, report)) {
+    if (!may_have_growth_note(run_.options.smoothing, report)) {
       return;
     }
     const mpi::AscendingIds& ids = topology_->overlap().triangle_ids;
@@ -371,20 +374,19 @@ class PieceMesh final : public StagedMesh {
       if (topology_->overlap().is_own(v) && held_[static_cast<std::size_t>(v)] == 0) {
         const std::string note = growth_note(view_of(before), now, v, report, worst.quotient, cell,
                                              topology_->overlap().ids[static_cast<std::size_t>(v)]);
-        said.insert(note.empty() ? note : std::to_string(corner) + note);
+        if (!note.empty()) {
+          said.insert(std::to_string(corner) + note);
+        }
       }
     }
-    said.erase("");
     if (const std::vector<std::string> all = texts_of_all(said, *ranks_); !all.empty()) {
       run_.note(all.front().substr(1));
     }
   }
 
   RunContext run_;
-  const PipelineOptions& options_;
   FileReading reading_;
   std::shared_ptr<const mpi::Communicator> ranks_;
-  Workers& workers_;
   PieceFiles files_;
   std::vector<std::string> read_notes_;        ///< of the readers of all pieces
   std::vector<std::string> read_losses_;       ///< what these say is lost
@@ -410,11 +412,12 @@ PipelineResult run_in_pieces(const PipelineOptions& asked, FileReading reading,
   StagedRun stages(mesh);
   agree(*ranks, [&] { require_piece_options(options); });
   try {
-    if (!names_parallel_file(options.input)) {
-      if (ranks->size() == 1 || !what_needs_whole_mesh(options).empty()) {
-        stages.begin(Stage::read);
-        throw NeedsWholeMesh{std::string(ranks->size() == 1 ? is_alone : what_needs_whole_mesh(options))};
-      }
+    const std::string_view reason = names_parallel_file(options.input) ? ""
+                                    : ranks->size() == 1               ? is_alone
+                                                                       : what_needs_whole_mesh(options);
+    if (!reason.empty()) {
+      stages.begin(Stage::read);
+      throw NeedsWholeMesh{std::string(reason)};
     }
     stages.read();
     stages.check_and_smooth();

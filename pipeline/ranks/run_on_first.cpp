@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/ranks/run_on_first.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <mpi.h>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/partition/vertex_owners.h"
@@ -97,6 +99,7 @@ class RankSmoother final : public PreparedSmoother {
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                          const std::optional<LocalFrame>& /*frame*/) override {
+    CallLimit::lift_current();  // the other ranks would wait for ever
     RankCommand command{RankCommand::What::smooth, storage, options_.guard};
     share_command(command, *ranks_);
     return smooth_over_ranks({triangles_, fixed_}, points, storage, options_, partition_, ranks_);
@@ -165,6 +168,7 @@ void follow(const SmoothingOptions& options, Partition partition,
     SmoothingOptions own = options;
     own.guard = command.guard;
     own.progress = {};
+    own.cancel = {};
     try {
       (void)smooth_over_ranks({}, {}, command.storage, own, partition, ranks);
     } catch (const std::exception&) {

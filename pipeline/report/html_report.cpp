@@ -1,7 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/report/html_report.h"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -45,11 +48,13 @@ std::string header(const PipelineOptions& options, const PipelineResult& result,
     counts += fmt::format(", {} other cells", count_text(input.other_cells));
   }
   std::string html = fmt::format("<header>\n<div class=\"kind\">{}</div>\n<h1>{}</h1>\n<div class=\"soft\">{}</div>\n",
-                                 options.output ? "Mesh smoothing report" : "Mesh quality report",
+                                 options.deformation ? "Mesh deformation report"
+                                 : options.output    ? "Mesh smoothing report"
+                                                     : "Mesh quality report",
                                  escape_html(input.path.filename().string()), counts);
-  if (const auto& written = options.written()) {
+  if (options.written()) {
     html += fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n",
-                        escape_html(shown_output(*written).string()));
+                        escape_html(shown_meshes(options, result)));
   }
   if (!record.date.empty()) {
     html += fmt::format("<div class=\"soft\">{}</div>\n", escape_html(record.date));
@@ -64,7 +69,8 @@ std::string lead(const PipelineResult& result, const RunRecord& record) {
   if (last.triangles == 0) {
     text = "The mesh has no triangles.";
   } else if (result.smoothing && result.smoothing->moved_vertices == 0) {
-    text = "No vertex could be improved: the mesh is as it was.";
+    text = std::string(why_nothing_moved(result)) + ". The mesh is as it was.";
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   } else if (result.smoothing) {
     const SlidingResult sliding = result.smoothing->sliding.value_or(SlidingResult{});
     text = fmt::format("{} of {} free vertices moved", count_text(result.smoothing->moved_vertices - sliding.slid),
@@ -267,6 +273,24 @@ std::string worst_tables(const PipelineResult& result) {
   return "<div class=\"two\">\n" + tables + "</div>\n";
 }
 
+std::string steps_table(const DeformationResult& deformation) {
+  std::string html =
+      "<table>\n<thead><tr><th>step</th><th>displacements</th><th>smallest shape</th><th>seen from the input</th>"
+      "<th>on average</th><th>not valid</th><th>crossings</th><th>overlaps</th><th>largest "
+      "displacement</th></tr></thead>\n<tbody>\n";
+  for (std::size_t i = 0; i < deformation.steps.size(); ++i) {
+    const DeformedStep& step = deformation.steps[i];
+    html += fmt::format(
+        "<tr><td>{}{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<td>{:.3g}</td></tr>\n",
+        i + 1, i == deformation.worst && deformation.steps.size() > 1 ? ", the worst" : "",
+        escape_html(step.displacements.string()), step.quality[Metric::shape].min, step.min_relative_shape,
+        step.mean_relative_shape, count_text(std::max(step.invalid(), step.invalid_quadratic())),
+        count_text(step.crossings), count_text(step.overlaps), step.largest_displacement);
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
 std::string gates_table(const std::vector<GateOutcome>& gates) {
   std::string html = "<table>\n<thead><tr><th>demanded</th><th>is</th><th></th></tr></thead>\n<tbody>\n";
   for (const GateOutcome& outcome : gates) {
@@ -290,7 +314,7 @@ std::string optional_number(double value, std::string_view unit) {
 
 std::string options_table(const PipelineOptions& options, const SmoothingResult& smoothing, Topology topology) {
   const SmoothingOptions& chosen = options.smoothing;
-  Rows rows{{"method", std::string(to_string(chosen.method))},
+  Rows rows{{"method", std::string(chosen.method_name())},
             {"form", std::string(to_string(chosen.form))},
             {"precision", std::string(to_string(chosen.precision))},
             {"guard", chosen.guard ? "on" : "off"},
@@ -407,6 +431,10 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   }
   if (!record.gates.empty()) {
     html += html_section("Gates", gates_table(record.gates));
+  }
+  if (result.deformation) {
+    html += html_section(result.deformation->steps.size() == 1 ? "How it followed its boundary" : "Steps",
+                         steps_table(*result.deformation));
   }
   if (result.before.triangles > 0) {
     html +=

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/report/json_report.h"
 
 #include <cmath>
@@ -104,7 +105,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
   }
   const bool annotates = options.annotate || options.annotated.has_value();
   return {{"output", written ? Json(shown_output(*written).string()) : Json(nullptr)},
-          {"method", name_of(smoothing.method)},
+          {"method", std::string(smoothing.method_name())},
           {"form", name_of(smoothing.form)},
           {"layout", name_of(smoothing.layout)},
           {"backend", result ? result->backend : "cpu"},
@@ -123,6 +124,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"size_weight", is_mean_ratio ? number_json(mean_ratio.size_weight) : Json(nullptr)},
           {"power", is_mean_ratio && mean_ratio.power > 0 ? Json(mean_ratio.power) : Json(nullptr)},
           {"target", is_mean_ratio ? name_of(mean_ratio.target) : Json(nullptr)},
+          {"steady", is_mean_ratio ? Json(mean_ratio.steady) : Json(nullptr)},
           {"size_array", is_mean_ratio ? text_or_null(options.size_array) : Json(nullptr)},
           {"slide", name_of(options.slide.along)},
           {"corner_angle", number_json(options.slide.corner_angle)},
@@ -303,6 +305,34 @@ Json fields_json(const std::vector<InterpolatedField>& fields) {
   return json;
 }
 
+Json deformation_json(const PipelineOptions& options, const std::optional<DeformationResult>& result) {
+  if (!result) {
+    return nullptr;
+  }
+  Json steps = Json::array();
+  for (const DeformedStep& step : result->steps) {
+    steps.push_back({{"displacements", step.displacements.string()},
+                     {"output", shown_output(step.output).string()},
+                     {"inverted", step.quality.inverted},
+                     {"degenerate", step.quality.degenerate},
+                     {"invalid_quadratic", step.quadratic ? Json(step.quadratic->invalid) : Json(nullptr)},
+                     {"min_shape", number_json(step.quality[Metric::shape].min)},
+                     {"mean_shape", number_json(step.quality[Metric::shape].mean)},
+                     {"min_relative_shape", number_json(step.min_relative_shape)},
+                     {"mean_relative_shape", number_json(step.mean_relative_shape)},
+                     {"invalid_held", step.invalid_held},
+                     {"crossings", step.crossings},
+                     {"overlaps", step.overlaps},
+                     {"largest_displacement", number_json(step.largest_displacement)},
+                     {"sweeps", step.sweeps},
+                     {"coordinates_hash", hash_text(step.coordinates_hash)}});
+  }
+  return {{"array", options.deformation->array.empty() ? Json(nullptr) : Json(options.deformation->array)},
+          {"start", name_of(options.deformation->start)},
+          {"worst_step", result->worst + 1},
+          {"steps", std::move(steps)}};
+}
+
 Json timings_json(const PipelineTimings& timings) {
   Json json = Json::object();
   for (const auto& [name, milliseconds] : timing_parts(timings)) {
@@ -330,6 +360,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"size_fit", size_fit_json(result)},
       {"fields", fields_json(result.fields)},
       {"areas", areas_json(result)},
+      {"deformation", deformation_json(options, result.deformation)},
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing, result.topology) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},

@@ -1,9 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/report/region_table.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <numeric>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -28,7 +32,7 @@ std::vector<std::size_t> worst_regions(const PipelineResult& result, std::size_t
   std::vector<std::size_t> shown(regions.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
   if (shown.size() > most) {
-    std::ranges::stable_sort(shown, {}, [&](std::size_t region) { return regions[region].min_shape; });
+    std::ranges::sort(shown, {}, [&](std::size_t region) { return std::pair(regions[region].min_shape, region); });
     shown.resize(most);
     std::ranges::sort(shown);
   }
@@ -60,8 +64,7 @@ std::vector<std::string> cells_of(const PipelineResult& result, std::size_t regi
           min_angle.after};
 }
 
-std::string short_name(const std::string& name) {
-  constexpr std::size_t most = 10;
+std::string short_name(const std::string& name, std::size_t most) {
   std::string text;
   for (const char c : name) {
     text += c >= ' ' && c <= '~' ? c : '?';
@@ -72,9 +75,18 @@ std::string short_name(const std::string& name) {
 }  // namespace
 
 std::vector<std::string> short_region_names(const PipelineResult& result) {
+  constexpr std::size_t longest = 40;
   std::vector<std::string> names;
   if (result.region_names.size() > 1) {
-    std::ranges::transform(result.region_names, std::back_inserter(names), short_name);
+    const std::set<std::string> all(result.region_names.begin(), result.region_names.end());
+    // A table of two meshes has no room for more, unless it takes that to tell the regions apart.
+    for (std::size_t most = result.regions_after.empty() ? 24 : 10; names.empty(); most += 6) {
+      std::ranges::transform(result.region_names, std::back_inserter(names),
+                             [most](const std::string& name) { return short_name(name, most); });
+      if (most < longest && std::set<std::string>(names.begin(), names.end()).size() < all.size()) {
+        names.clear();
+      }
+    }
   }
   return names;
 }
@@ -101,9 +113,10 @@ std::string region_table(const PipelineResult& result, std::size_t most) {
   TextColumns table(columns);
   table.add_row(head);
   const std::vector<std::size_t> shown = worst_regions(result, most);
+  const std::vector<std::string> names = short_region_names(result);
   for (const std::size_t region : shown) {
     std::vector<std::string> row = cells_of(result, region);
-    row.insert(row.begin(), short_name(result.region_names[region]));
+    row.insert(row.begin(), names[region]);
     table.add_row(std::move(row));
   }
   std::string text = table.text(titles);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/report/text_report.h"
 
 #include <algorithm>
@@ -54,23 +55,6 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
   return lines.empty() ? text : text + labelled_line("lines:", lines);
 }
 
-/// What a run that moved nothing should say, or nothing.
-std::string_view why_nothing_moved(const PipelineResult& result) {
-  if (result.smoothing->moved_vertices > 0) {
-    return {};
-  }
-  if (result.input.triangles == 0) {
-    return "nothing to smooth: the mesh has no triangles";
-  }
-  if (result.input.free_vertices == 0 && result.smoothing->sliding.value_or(SlidingResult{}).vertices == 0) {
-    return "nothing to smooth: every vertex is fixed";
-  }
-  if (result.smoothing->reverted_vertices > 0) {
-    return "nothing moved: every move would have made an element worse and was taken back";
-  }
-  return "nothing moved: no vertex could be improved";
-}
-
 std::string who_smoothed(const SmoothingResult& smoothing) {
   return ran_on_device(smoothing)
              ? smoothing.backend
@@ -90,7 +74,7 @@ std::string method_lines(const SmoothingOptions& options, const PipelineResult& 
   const double smoothing_time =
       timings.transfer_in + timings.untangle + timings.smooth + timings.transfer_out + timings.guard;
   std::string text = labelled_line(
-      "smoothing:", fmt::format("{}, form {}, {} precision, {}: {}", to_string(options.method), to_string(options.form),
+      "smoothing:", fmt::format("{}, form {}, {} precision, {}: {}", options.method_name(), to_string(options.form),
                                 to_string(options.precision), who_smoothed(smoothing), duration_text(smoothing_time)));
   if (!smoothing.backend_note.empty()) {
     text += labelled_line("", smoothing.backend_note);
@@ -128,6 +112,34 @@ std::string result_lines(const PipelineResult& result, TextDetail detail) {
     lines += labelled_line("", describe(smoothing.stop_reason));
   }
   return lines;
+}
+
+std::string step_text(const DeformedStep& step) {
+  return fmt::format(
+      "smallest shape {:.3g}, seen from the input {:.3g}, {:.3g} on average; largest displacement {:.3g}{}{}",
+      step.quality[Metric::shape].min, step.min_relative_shape, step.mean_relative_shape, step.largest_displacement,
+      (step.invalid() > 0 ? fmt::format("; {} inverted or degenerate", step.invalid()) : "") +
+          (step.invalid_quadratic() > 0 ? fmt::format("; {} of six nodes not valid", step.invalid_quadratic()) : ""),
+      step.crossings + step.overlaps > 0 ? "; it lies over itself" : "");
+}
+
+/// How the mesh followed its boundary; nothing where that stayed.
+std::string deformation_lines(const PipelineResult& result, TextDetail detail) {
+  if (!result.deformation) {
+    return {};
+  }
+  const std::vector<DeformedStep>& steps = result.deformation->steps;
+  const std::size_t worst = result.deformation->worst;
+  if (steps.size() == 1) {
+    return labelled_line("followed:", step_text(steps.front()));
+  }
+  std::string text;
+  for (std::size_t i = 0; detail == TextDetail::all && i < steps.size(); ++i) {
+    text += labelled_line(i == 0 ? "steps:" : "",
+                          fmt::format("{}, {}: {}", i + 1, steps[i].displacements.string(), step_text(steps[i])));
+  }
+  return text + labelled_line("followed:", fmt::format("{} steps; the worst is step {}, {}", steps.size(), worst + 1,
+                                                       step_text(steps[worst])));
 }
 
 /// How sizes changed; nothing where no vertex moved.
@@ -266,6 +278,37 @@ std::string sliding_text(const PipelineResult& result) {
   return text;
 }
 
+std::string_view why_nothing_moved(const PipelineResult& result) {
+  if (result.smoothing->moved_vertices > 0 || result.deformation) {
+    return {};
+  }
+  if (result.input.triangles == 0) {
+    return "nothing to smooth: the mesh has no triangles";
+  }
+  if (result.input.free_vertices == 0 && result.smoothing->sliding.value_or(SlidingResult{}).vertices == 0) {
+    return "nothing to smooth: every vertex is fixed";
+  }
+  if (result.smoothing->sweeps == 0 && result.smoothing->stop_reason == StopReason::quality_target) {
+    return "nothing moved: the mesh has the target quality already";
+  }
+  if (result.smoothing->sweeps == 0) {
+    return "nothing moved: there was no time for a sweep";
+  }
+  if (result.smoothing->reverted_vertices > 0) {
+    return "nothing moved: every move would have made an element worse and was taken back";
+  }
+  return "nothing moved: no vertex could be improved";
+}
+
+std::string shown_meshes(const PipelineOptions& options, const PipelineResult& result) {
+  const std::filesystem::path& output = *options.written();
+  if (!result.deformation || !options.deformation->is_series) {
+    return shown_output(output).string();
+  }
+  const std::vector<DeformedStep>& steps = result.deformation->steps;
+  return steps.front().output.string() + (steps.size() > 1 ? " to " + steps.back().output.string() : "");
+}
+
 std::string_view describe(StopReason reason) {
   switch (reason) {
     case StopReason::fixed_point:
@@ -320,6 +363,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
   if (result.smoothing) {
     text += method_lines(options.smoothing, result, detail);
     text += result_lines(result, detail);
+    text += deformation_lines(result, detail);
     text += sizes_line(result);
     text += size_fit_line(result);
     text += fields_line(result);
@@ -345,7 +389,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
   }
   // What goes to standard output is written behind this text.
   if (const auto& written = options.written(); written && !is_standard_stream(*written)) {
-    text += labelled_line("written:", shown_output(*written).string());
+    text += labelled_line("written:", shown_meshes(options, result));
   }
   return text;
 }

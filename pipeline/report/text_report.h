@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <string>
@@ -38,6 +39,12 @@ std::string quadratic_text(const PipelineResult& result);
 
 /// What every report says of a result that another run would not give.
 std::string_view not_reproducible_text();
+
+/// The mesh files that a run wrote, for people. It wrote some.
+std::string shown_meshes(const PipelineOptions& options, const PipelineResult& result);
+
+/// "nothing moved: no vertex could be improved", ...: why a run with smoothing moved nothing; empty where it did.
+std::string_view why_nothing_moved(const PipelineResult& result);
 
 /// "nothing moved any more", ...: a stop reason in words.
 std::string_view describe(StopReason reason);

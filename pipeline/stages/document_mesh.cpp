@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/stages/document_mesh.h"
 
 #include <algorithm>
@@ -80,7 +81,7 @@ void DocumentMesh::connect() {
   connect_mesh(run_);
 }
 
-MeshQuality DocumentMesh::quality() {
+QualityOfMesh DocumentMesh::quality() {
   return {report_of(run_), quality_of_regions(run_), quality_of_quadratics(run_)};
 }
 
@@ -92,21 +93,35 @@ CoarseBoundary DocumentMesh::coarse_boundary() {
   return find_coarse_boundary(run_.view(), run_.found.fixed, run_.options.smoothing.threads);
 }
 
+Deformer& DocumentMesh::deform() {
+  deformer_ = std::make_unique<Deformer>(run_);
+  return *deformer_;
+}
+
 SmoothingResult DocumentMesh::smooth() {
-  SmoothingResult smoothing = smooth_mesh(run_);
+  SmoothingResult smoothing = deformer_ ? deformer_->follow() : smooth_mesh(run_);
   stop_if_cancelled(smoothing);
   return smoothing;
 }
 
 void DocumentMesh::write(const std::function<const PipelineResult&()>& completed) {
   const PipelineOptions& options = run_.options;
-  WrittenAside mesh = write_output(run_, *options.written(), !options.output || options.annotate);
+  const std::size_t notes = run_.result.notes.size();
+  const std::size_t losses = run_.result.losses.size();
+  WrittenAside mesh =
+      write_output(run_, deformer_ ? deformer_->output() : *options.written(), !options.output || options.annotate);
+  if (deformer_ && deformer_->done() > 1) {
+    // What is to be said of the file has been said of the first one.
+    run_.result.notes.resize(notes);
+    run_.result.losses.resize(losses);
+  }
+  const bool is_last = !deformer_ || deformer_->is_done();
   const PipelineResult& result = completed();
-  if (options.beside.prepare) {
+  if (is_last && options.beside.prepare) {
     options.beside.prepare(result);
   }
   mesh.send();
-  if (options.beside.place) {
+  if (is_last && options.beside.place) {
     options.beside.place();
   }
   mesh.commit();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/stages/field_stage.h"
 
 #include <algorithm>
@@ -124,7 +125,8 @@ void report_transferred(RunState& run, const TransferredField& field, std::int64
 
 void find_fields(RunState& run) {
   const PipelineOptions& options = run.options;
-  if (!options.output) {
+  // Where the mesh follows its boundary vertices take their values along.
+  if (!options.output || options.deformation) {
     return;
   }
   const MeshDocument& document = run.document;

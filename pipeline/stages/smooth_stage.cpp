@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/stages/smooth_stage.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include "trismooth/base/machine/stopwatch.h"
-#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/input/near_corners.h"
 #include "trismooth/pipeline/stages/field_stage.h"
@@ -21,7 +21,9 @@
 #include "trismooth/pipeline/stages/write_stage.h"
 #include "trismooth/quality/region_area.h"
 #include "trismooth/smoothing/backend_choice.h"
+#include "trismooth/smoothing/limited.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
+#include "trismooth/space/plane_smoothing.h"
 
 namespace trismooth {
 
@@ -102,7 +104,8 @@ SmoothingResult smooth_mesh(RunState& run) {
   }
   const std::vector<double> points_read = run.mesh.middles.empty() ? std::vector<double>{} : run.document.points;
   const std::vector<double> before_merging = run.mesh.merged.empty() ? std::vector<double>{} : run.document.points;
-  SmoothingResult smoothing = smooth_points(run);
+  SmoothingResult smoothing =
+      limited(run.smoothing, backend_of(run.smoothing).name(), [&run] { return smooth_points(run); });
   smoothing.backend_note = joined_notes(run.found.note, smoothing.backend_note);
   if (smoothing.stop_reason == StopReason::cancelled) {
     return smoothing;

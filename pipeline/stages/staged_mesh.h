@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace trismooth {
 struct RunContext;
 
 /// How good a mesh is, of the whole of it.
-struct MeshQuality {
+struct QualityOfMesh {
   QualityReport report;
   std::vector<RegionQuality> regions;         ///< empty where there are no two
   std::optional<QuadraticQuality> quadratic;  ///< where there are triangles of six nodes
@@ -42,7 +43,7 @@ class StagedMesh {
   /// Finds what the mesh means and how it hangs together, and summarises that (summarise_mesh()).
   virtual void connect() = 0;
   /// The quality of the mesh as it is now.
-  virtual MeshQuality quality() = 0;
+  virtual QualityOfMesh quality() = 0;
   /// What single precision would lose of it.
   virtual PrecisionLoss precision_loss() = 0;
   /// Where its boundary is too coarse for what is behind it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/stages/staged_run.h"
 
 #include <string>
@@ -28,6 +29,7 @@ StagedRun::StagedRun(StagedMesh& mesh) : mesh_(mesh), run_(mesh.context()) {
   mesh_.together([this] {
     run_.options.smoothing.validate();
     run_.options.slide.validate();
+    check_deformation(run_.options);
   });
 }
 
@@ -51,46 +53,56 @@ void StagedRun::read() {
 }
 
 void StagedRun::check_and_smooth() {
+  check();
+  if (run_.options.output) {
+    warn_before_smoothing(mesh_);
+    smooth();
+  }
+}
+
+void StagedRun::check() {
   PipelineTimings& timings = run_.result.timings_ms;
   timed(Stage::topology, timings.topology, [this] { mesh_.connect(); });
   timed(Stage::check_before, timings.check_before, [this] { check_before(); });
   warn_of_input(run_);
-  if (run_.options.output) {
-    warn_before_smoothing(mesh_);
-    begin(Stage::smooth);
-    smooth();
-    timed(Stage::check_after, timings.check_after, [this] { check_after(); });
-  }
 }
 
 void StagedRun::check_before() {
   PipelineResult& result = run_.result;
-  MeshQuality quality = mesh_.quality();
+  QualityOfMesh quality = mesh_.quality();
   result.before = std::move(quality.report);
   result.regions_before = std::move(quality.regions);
   result.quadratic_before = quality.quadratic;
 }
 
 void StagedRun::smooth() {
+  begin(Stage::smooth);
   SmoothingResult smoothing = mesh_.smooth();
   PipelineTimings& timings = run_.result.timings_ms;
   timings.topology += smoothing.timings.prepare;
-  timings.transfer_in = smoothing.timings.transfer_in;
-  timings.untangle = smoothing.timings.untangle;
-  timings.smooth = smoothing.timings.smooth;
-  timings.transfer_out = smoothing.timings.transfer_out;
-  timings.guard = smoothing.timings.commit;
+  timings.transfer_in += smoothing.timings.transfer_in;
+  timings.untangle += smoothing.timings.untangle;
+  timings.smooth += smoothing.timings.smooth;
+  timings.transfer_out += smoothing.timings.transfer_out;
+  timings.guard += smoothing.timings.commit;
+  if (smoothing.stop_reason == StopReason::time_limit && smoothing.sweeps == 0) {
+    run_.warn("the time was up before the first sweep, so no sweep has moved anything; give --time-limit more");
+  }
   run_.result.smoothing = std::move(smoothing);
+  timed(Stage::check_after, timings.check_after, [this] { check_after(); });
 }
 
 void StagedRun::check_after() {
   PipelineResult& result = run_.result;
-  MeshQuality quality = mesh_.quality();
+  QualityOfMesh quality = mesh_.quality();
   result.smoothing->inverted = quality.report.inverted;
   result.smoothing->degenerate = quality.report.degenerate;
   result.after = std::move(quality.report);
   result.regions_after = std::move(quality.regions);
   result.quadratic_after = quality.quadratic;
+  if (run_.options.deformation) {
+    return;  // of all steps together it is said
+  }
   for (std::string& warning : warnings_of_invalid(result)) {
     run_.warn(std::move(warning));
   }
@@ -104,7 +116,7 @@ void StagedRun::write() {
   begin(Stage::write);
   const Stopwatch watch;
   mesh_.write([&]() -> const PipelineResult& {
-    run_.result.timings_ms.write = watch.milliseconds();
+    run_.result.timings_ms.write += watch.milliseconds();
     complete();
     return run_.result;
   });

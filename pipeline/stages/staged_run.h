@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "trismooth/base/machine/stopwatch.h"
@@ -18,6 +19,10 @@ class StagedRun {
   void read();
   /// All stages between reading and writing.
   void check_and_smooth();
+  /// Those up to the smoothing.
+  void check();
+  /// The smoothing, and the check behind it.
+  void smooth();
   /// Writes the mesh, where there is an output, and what belongs to it. Completes the result.
   void write();
   /// The times and the memory of the whole run.
@@ -31,7 +36,6 @@ class StagedRun {
   template <class Body>
   void timed(Stage stage, double& milliseconds, const Body& body) const;
   void check_before();
-  void smooth();
   void check_after();
 
   const Stopwatch watch_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/stages/topology_stage.h"
 
 #include <algorithm>
@@ -10,10 +11,7 @@
 #include <vector>
 
 #include "trismooth/base/text/counted.h"
-#include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/errors.h"
-#include "trismooth/mesh_io/halfedge/halfedge_rings.h"
-#include "trismooth/pipeline/halfedge_stage.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/line_groups.h"
 #include "trismooth/pipeline/input/map_mesh.h"
@@ -21,6 +19,7 @@
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/slide_lines.h"
 #include "trismooth/pipeline/stages/field_stage.h"
+#include "trismooth/pipeline/stages/halfedge_way.h"
 #include "trismooth/pipeline/stages/mesh_summary.h"
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/smoothing/backend_choice.h"
@@ -168,54 +167,6 @@ Sliding sliding_of(const RunState& run, const SlideLines& lines) {
   return slide;
 }
 
-/// Calls what connects triangles, whose errors are the file's.
-template <class Connect>
-auto connected(const RunState& run, const Connect& connect) {
-  try {
-    return connect();
-  } catch (const MeshError& error) {
-    throw ReadError(run.options.input, error.what());
-  }
-}
-
-/// (OpenMesh's meshes cannot be moved: this one is made where it stays.)
-std::unique_ptr<const ConnectedMesh> halfedges_of(RunState& run) {
-  return connected(run, [&] {
-    return std::unique_ptr<const ConnectedMesh>(
-        new ConnectedMesh(connect_halfedges(run.document.points, run.mesh.triangles, run.workers)));
-  });
-}
-
-/// Runs the program's own stage, and answers one flag a vertex that it holds, or none.
-std::vector<std::uint8_t> run_halfedge_stage(RunState& run, const HalfedgeMesh& halfedges) {
-  HalfedgeStage stage{halfedges.mesh, halfedges.copies_of, run.mesh.cells, run.regions.of_triangle, run.document};
-  run.options.halfedge_stage(stage);
-  const std::size_t points = run.document.point_count();
-  const auto require_rows = [&](std::size_t rows, const std::string& what) {
-    if (rows != points) {
-      throw std::invalid_argument("halfedge_stage: " + what + " has " + std::to_string(rows) + " rows for " +
-                                  counted(static_cast<std::int64_t>(points), "point", "points"));
-    }
-  };
-  for (std::size_t i = 0; i < stage.point_arrays.size(); ++i) {
-    const DataArray& array = stage.point_arrays[i];
-    require_rows(array.rows(), "the array '" + array.name + "'");
-    if (array.name.empty() || array.name.starts_with(annotation_prefix)) {
-      throw std::invalid_argument("halfedge_stage: an array needs a name that does not begin with '" +
-                                  std::string(annotation_prefix) + "'");
-    }
-    if (find_array(run.document.point_arrays, array.name) != nullptr ||
-        find_array(std::span(stage.point_arrays).first(i), array.name) != nullptr) {
-      throw std::invalid_argument("halfedge_stage: there is a point array '" + array.name + "' already");
-    }
-  }
-  if (!stage.fixed.empty()) {
-    require_rows(stage.fixed.size(), "fixed");
-  }
-  run.stage_arrays = std::move(stage.point_arrays);
-  return std::move(stage.fixed);
-}
-
 /// To hold a middle holds the ends of its side, which who takes it for a vertex of the boundary may not want.
 void note_held_middles(RunState& run, std::vector<std::uint8_t> held) {
   std::int64_t middles = 0;
@@ -239,27 +190,29 @@ void note_held_middles(RunState& run, std::vector<std::uint8_t> held) {
 bool goes_by_halfedges(const RunState& run) {
   constexpr std::size_t most_triangles = 16'000'000;
   return run.smoothing.topology == Topology::halfedge ||
-         (run.smoothing.topology != Topology::host && run.options.output &&
+         (run.smoothing.topology != Topology::host && run.options.output && has_halfedges() &&
           run.mesh.triangles.size() <= most_triangles);
 }
 
 /// `halfedges`: where the mesh has been connected by them already.
-MeshRings rings_of(RunState& run, const Constraints& constraints, std::unique_ptr<const ConnectedMesh> halfedges) {
+MeshRings rings_of(RunState& run, const Constraints& constraints, std::unique_ptr<const HalfedgeWay> halfedges) {
   const PlanarMesh& mesh = run.mesh;
-  const Layers layers = run.smoothing.used_layers();
+  // Of a mesh that follows its boundary, layers go where that carries them.
+  const Layers layers = run.options.deformation ? Layers::smooth : run.smoothing.used_layers();
   const auto on_host = [&] {
     if (halfedges == nullptr && goes_by_halfedges(run)) {
-      halfedges = halfedges_of(run);
+      halfedges = connect_by_halfedges(run);
     }
-    return halfedges == nullptr
-               ? find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, layers)
-               : read_halfedge_rings(*halfedges, run.local.points, mesh.triangles, constraints, run.workers, layers);
+    return halfedges == nullptr ? find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, layers)
+                                : halfedges->rings(run, constraints, layers);
   };
-  return connected(run, [&] {
+  try {
     return halfedges != nullptr
                ? on_host()
                : rings_for(run.options.smoothing, run.local.points, mesh.triangles, constraints, on_host);
-  });
+  } catch (const MeshError& error) {
+    throw ReadError(run.options.input, error.what());
+  }
 }
 
 }  // namespace
@@ -292,10 +245,10 @@ void connect_mesh(RunState& run) {
                                  options.slide.along != Slide::off);
   std::ranges::move(sets.notes, std::back_inserter(result.notes));
   std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
-  std::unique_ptr<const ConnectedMesh> halfedges;
+  std::unique_ptr<const HalfedgeWay> halfedges;
   if (options.halfedge_stage) {
-    halfedges = halfedges_of(run);
-    const std::vector<std::uint8_t> held = run_halfedge_stage(run, halfedges->halfedges);
+    halfedges = connect_by_halfedges(run);
+    const std::vector<std::uint8_t> held = halfedges->run_stage(run);
     note_held_middles(run, held);
     fixed = united(fixed, held);
   }

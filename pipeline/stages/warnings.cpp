@@ -1,5 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/stages/warnings.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "trismooth/base/text/counted.h"
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/stages/run_context.h"
 #include "trismooth/pipeline/stages/staged_mesh.h"
 
@@ -71,7 +78,7 @@ std::string warning_of_options_without_effect(const PipelineOptions& options) {
   std::string warning = options.smoothing.method == Method::mean_ratio || names.empty()
                             ? std::string()
                             : fmt::format("the method {} takes no notice of {}; --method mean-ratio does",
-                                          to_string(options.smoothing.method), fmt::join(names, ", "));
+                                          options.smoothing.method_name(), fmt::join(names, ", "));
   const Sliding usual_slide;
   std::vector<std::string_view> of_curves;
   if (options.slide.deviation != usual_slide.deviation) {
@@ -116,6 +123,101 @@ std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
         after.invalid, after.elements, after.invalid == 1 ? "is" : "are", result.quadratic_before->invalid));
   }
   return warnings;
+}
+
+std::string note_of_carried_layers(const LayersResult& layers) {
+  return fmt::format(
+      "{} of layers that are flat on purpose (aspect {:.3g} at most) and {} carried along as {}; --layers smooth "
+      "smooths {}, and goes further where the boundary bends",
+      counted(layers.kept, "vertex is", "vertices are"), layers.kept_aspect, layers.kept == 1 ? "is" : "are",
+      layers.kept == 1 ? "it is" : "they are", layers.kept == 1 ? "it" : "them");
+}
+
+std::vector<std::string> warnings_of_deformation(const PipelineResult& result) {
+  const DeformationResult& deformation = *result.deformation;
+  const DeformedStep& worst = deformation.steps[deformation.worst];
+  const std::size_t count = deformation.steps.size();
+  const auto where = [count](std::int64_t steps, std::size_t first) {
+    return count == 1 ? std::string()
+                      : fmt::format(" in {} of {} steps, {} {}", steps, count,
+                                    steps == 1 ? "it is step" : "first in step", first + 1);
+  };
+  const auto in_steps = [&](const auto& has) {
+    const auto first = std::ranges::find_if(deformation.steps, has);
+    return std::pair(std::ranges::count_if(deformation.steps, has),
+                     static_cast<std::size_t>(first - deformation.steps.begin()));
+  };
+  std::vector<std::string> warnings;
+  const auto [invalid, first_invalid] = in_steps([](const DeformedStep& step) { return step.invalid() > 0; });
+  if (invalid > 0) {
+    std::string text =
+        fmt::format("triangles are inverted or degenerate{}: {}{}", where(invalid, first_invalid), worst.invalid(),
+                    count == 1 ? "" : fmt::format(" in step {}, the worst", deformation.worst + 1));
+    if (result.before.inverted + result.before.degenerate > 0) {
+      text += fmt::format(" ({} are in the mesh's file)", result.before.inverted + result.before.degenerate);
+    }
+    if (worst.invalid_held > 0) {
+      text +=
+          fmt::format(", {} of which have corners of the boundary alone, which itself has folded", worst.invalid_held);
+    }
+    warnings.push_back(text +
+                       "; --layers smooth may mend what layers cannot follow, else the boundary needs another mesh");
+  }
+  if (const auto [crossing, first] = in_steps([](const DeformedStep& step) { return step.crossings > 0; });
+      crossing > 0) {
+    warnings.push_back(fmt::format(
+        "the boundary crosses or touches itself{}: {} of its edges; a mesh with that boundary lies on itself or over "
+        "itself, whether triangles are inverted or not",
+        where(crossing, first), counted(deformation.steps[first].crossings, "pair", "pairs")));
+  }
+  if (const auto [overlapping, first] = in_steps([](const DeformedStep& step) { return step.overlaps > 0; });
+      overlapping > 0) {
+    warnings.push_back(fmt::format(
+        "the mesh lies over itself{}, at {}: a hole may have been turned inside out, or a slit pushed through itself",
+        where(overlapping, first), counted(deformation.steps[first].overlaps, "vertex", "vertices")));
+  }
+  const std::int64_t quadratic_before = result.quadratic_before ? result.quadratic_before->invalid : 0;
+  if (const auto [steps, first] =
+          in_steps([&](const DeformedStep& step) { return step.invalid_quadratic() > quadratic_before; });
+      steps > 0) {
+    const QuadraticQuality& found = *deformation.steps[first].quadratic;
+    warnings.push_back(fmt::format("triangles of six nodes are not valid{}: {} of {} ({} before)", where(steps, first),
+                                   found.invalid, found.elements, quadratic_before));
+  }
+  return warnings;
+}
+
+void check_deformation(const PipelineOptions& options) {
+  if (!options.deformation) {
+    return;
+  }
+  const Deformation& asked = *options.deformation;
+  if (!options.output) {
+    throw std::invalid_argument("deformation: there is no output for the mesh that follows its boundary");
+  }
+  if (asked.array.empty() && asked.steps.empty()) {
+    throw std::invalid_argument("deformation: neither an array nor a file has the displacements of the boundary");
+  }
+  if (!asked.is_series && asked.step_count() > 1) {
+    throw std::invalid_argument("deformation: several steps are a series");
+  }
+  if (asked.is_series && is_standard_stream(*options.output)) {
+    throw std::invalid_argument("a series of meshes is a series of files, not one on standard output");
+  }
+  const std::pair<bool, const char*> others[] = {
+      {options.slide.along != Slide::off, "vertices that slide"},
+      {options.size_array.has_value(), "sizes of an array"},
+      {options.geographic, "longitudes and latitudes"},
+      {options.project.has_value(), "a projection"},
+      {options.merge.has_value(), "merged corners"},
+      {options.fields == Fields::interpolate || !options.field_arrays.empty(), "values that follow the mesh"},
+      {options.smoothing.time_limit_seconds < std::numeric_limits<double>::infinity(), "a limit of time"}};
+  for (const auto& [is_asked, what] : others) {
+    if (is_asked) {
+      throw std::invalid_argument(
+          fmt::format("deformation: a mesh that follows its boundary has no place for {}", what));
+    }
+  }
 }
 
 std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <span>
@@ -31,6 +32,16 @@ std::string note_of_layers(const LayersResult& layers);
 /// What is to be said of a result in which triangles are inverted, or triangles of six nodes not valid, with the way
 /// out.
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result);
+
+/// What is carried along since it is flat on purpose, with the way out. There is some.
+std::string note_of_carried_layers(const LayersResult& layers);
+
+/// What is to be said of a mesh that has not followed its boundary as it should, with the way out.
+std::vector<std::string> warnings_of_deformation(const PipelineResult& result);
+
+/// Throws std::invalid_argument where the mesh is to follow its boundary, and something is asked for that it then does
+/// not have.
+void check_deformation(const PipelineOptions& options);
 
 /// What does not slide since lines touch without sharing vertices, with the way out; empty where there is nothing.
 std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked);

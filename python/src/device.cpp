@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/device.h"
 
 #include <algorithm>
@@ -95,7 +96,9 @@ class DevicePlan {
     SmoothingOptions& options = call.smoothing;
     options.backend = nullptr;
     options.mean_ratio.target_lengths = sizes_;
-    options.progress = [this](const SweepRecord& sweep) { return (*interruption_)(sweep); };
+    Interruption making{nb::none()};
+    interruption_ = &making;
+    Interruption::watch(options, interruption_);
     mesh_.vertex_count = checked_count(vertex_count, "points");
     mesh_.triangle_count = checked_count(static_cast<std::int64_t>(triangles_.extent(0)), "triangles");
     const CurrentDevice current(device_);

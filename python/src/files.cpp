@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/files.h"
 
 #include <algorithm>
@@ -226,7 +227,8 @@ class FileMesh {
     options.smoothing = std::move(call.smoothing);
     options.slide = call.slide;
     Interruption interruption(progress);
-    options.smoothing.progress = std::ref(interruption);
+    Interruption* const current = &interruption;
+    Interruption::watch(options.smoothing, current);
     FileOutcome outcome;
     options.beside.prepare = [&](const PipelineResult& result) {
       outcome = outcome_of(options, result);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/flat_mesh.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <nanobind/stl/string.h>
 
 #include "trismooth/base/machine/workers.h"
+#include "trismooth/base/mesh_size.h"
 #include "trismooth/base/repeated_triangles.h"
 #include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/array_names.h"
@@ -67,7 +69,8 @@ class Document {
     cells.connectivity = integers(nodes, "points", static_cast<std::size_t>(cells.offsets.back()), "node of a cell");
     for (const std::int32_t v : cells.connectivity) {
       if (v < 0 || std::cmp_greater_equal(v, vertex_count)) {
-        raise_value_error("points", "a cell names vertex " + std::to_string(v) + " of " + std::to_string(vertex_count));
+        raise_value_error("points", "a cell names vertex " + std::to_string(v) +
+                                        numbering_text(static_cast<std::int64_t>(vertex_count)));
       }
     }
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <chrono>
@@ -10,9 +11,9 @@
 
 namespace trismooth::python {
 
-/// A progress callback for a smoothing that runs without the GIL. Calls the caller's `progress` with each sweep, and
-/// looks for Ctrl-C many times a second. Answers stop where `progress` returns what is false, but for None; what it
-/// raises, and KeyboardInterrupt, leaves the smoothing as an exception.
+/// The callbacks of a smoothing that runs without the GIL. Calls the caller's `progress` with each sweep, and looks for
+/// Ctrl-C many times a second, in whatever phase. Answers stop where `progress` returns what is false, but for None;
+/// what it raises, and KeyboardInterrupt, leaves the smoothing as an exception.
 class Interruption {
  public:
   /// `progress`: a callable, or None. Raises TypeError for anything else.
@@ -22,22 +23,33 @@ class Interruption {
     }
   }
 
-  Progress operator()(const SweepRecord& sweep) {
+  /// Has these options call what `current` points to by then.
+  static void watch(SmoothingOptions& options, Interruption* const& current) {
+    options.cancel = [&current] { return current->look(); };
+    options.progress = [&current](const SweepRecord& sweep) { return current->told(sweep); };
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds between_looks{20};
+
+  /// Never true: Ctrl-C is thrown.
+  bool look() {
     const auto now = std::chrono::steady_clock::now();
-    const bool has_callback = !progress_.is_none();
-    if (!has_callback && now - last_look_ < between_looks) {
-      return Progress::proceed;
-    }
-    const nanobind::gil_scoped_acquire gil;
     if (now - last_look_ >= between_looks) {
       last_look_ = now;
+      const nanobind::gil_scoped_acquire gil;
       if (PyErr_CheckSignals() != 0) {
         throw nanobind::python_error();
       }
     }
-    if (!has_callback) {
+    return false;
+  }
+
+  Progress told(const SweepRecord& sweep) const {
+    if (progress_.is_none()) {
       return Progress::proceed;
     }
+    const nanobind::gil_scoped_acquire gil;
     const nanobind::object answer = progress_(sweep);
     const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
     if (goes_on < 0) {
@@ -45,9 +57,6 @@ class Interruption {
     }
     return goes_on == 1 ? Progress::proceed : Progress::stop;
   }
-
- private:
-  static constexpr std::chrono::milliseconds between_looks{20};
 
   nanobind::object progress_;
   std::chrono::steady_clock::time_point last_look_ = std::chrono::steady_clock::now();

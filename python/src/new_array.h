@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ namespace trismooth::python {
 /// size. Constant time.
 template <class Element, std::size_t dimensions, class T>
 nanobind::object new_array(std::vector<T> values, const std::array<std::size_t, dimensions>& shape) {
-  static_assert(sizeof(Element) * (sizeof(T) / sizeof(Element)) == sizeof(T));
+  static_assert(sizeof(T) % sizeof(Element) == 0);
   auto kept = std::make_unique<std::vector<T>>(std::move(values));
   void* const first = kept->data();
   const nanobind::capsule owner(kept.release(), [](void* memory) noexcept {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/options.h"
 
 #include <algorithm>
@@ -168,7 +169,7 @@ void parse_coincident(nb::handle value, const char* name, Parsed& parsed) {
   }
 }
 
-constexpr auto options = std::to_array<Option>({
+constexpr auto known_options = std::to_array<Option>({
     {"method", parse_choice<&SmoothingOptions::method>},
     {"form", parse_choice<&SmoothingOptions::form>},
     {"backend", [](nb::handle value, const char* name, Parsed& parsed) { parsed.backend = text_of(value, name); }},
@@ -198,6 +199,8 @@ constexpr auto options = std::to_array<Option>({
      }},
     {"target", [](nb::handle value, const char* name,
                   Parsed& parsed) { parsed.options.mean_ratio.target = choice_of<TargetShape>(value, name); }},
+    {"steady", [](nb::handle value, const char* name,
+                  Parsed& parsed) { parsed.options.mean_ratio.steady = flag_of(value, name); }},
     {"record_min_shape", parse_flag<&SmoothingOptions::record_min_shape>},
     {"slide",
      [](nb::handle value, const char* name, Parsed& parsed) { parsed.slide.along = choice_of<Slide>(value, name); }},
@@ -209,8 +212,8 @@ constexpr auto options = std::to_array<Option>({
 
 const Option* find_option(std::string_view name) {
   const auto* const option =
-      std::ranges::find(options, name, [](const Option& known) { return std::string_view(known.name); });
-  return option == options.end() ? nullptr : option;
+      std::ranges::find(known_options, name, [](const Option& known) { return std::string_view(known.name); });
+  return option == known_options.end() ? nullptr : option;
 }
 
 /// The key of an option; empty where it is none that an option could have.
@@ -260,14 +263,14 @@ int threads_of(nb::handle value) {
 
 std::vector<std::string> option_names() {
   std::vector<std::string> names;
-  for (const Option& option : options) {
+  for (const Option& option : known_options) {
     names.emplace_back(option.name);
   }
   return names;
 }
 
-CallOptions parse_options(const nb::dict& arguments) {
-  Parsed parsed;
+CallOptions parse_options(const nb::dict& arguments, const SmoothingOptions& otherwise) {
+  Parsed parsed{otherwise};
   for (const auto& [key, value] : arguments) {
     const Option* const option = find_option(text_view(key));
     if (option == nullptr) {

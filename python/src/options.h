@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <string>
@@ -19,7 +20,8 @@ struct CallOptions {
 /// The options of a call: keyword arguments as the command line calls them, with '_' in place of '-'. Raises TypeError
 /// for an unknown name or a value of the wrong type, ValueError for a value that is none of the valid ones, each with
 /// the name. `backend` is chosen here as the program chooses it; DeviceError where it is asked for and not there.
-CallOptions parse_options(const nanobind::dict& arguments);
+/// `otherwise`: what holds for options that are not among them.
+CallOptions parse_options(const nanobind::dict& arguments, const SmoothingOptions& otherwise = {});
 
 /// A number of threads, 0 to most_threads(); the exception names `threads`.
 int threads_of(nanobind::handle value);

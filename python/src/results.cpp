@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/results.h"
 
 #include <sstream>
@@ -163,6 +164,26 @@ void bind_sliding(nb::module_& module) {
       });
 }
 
+/// What is said of a mesh that followed its boundary; None of others.
+nb::object following_of(const Outcome& outcome) {
+  if (!outcome.followed) {
+    return nb::none();
+  }
+  nb::dict found;
+  found["min_relative_shape"] = outcome.followed->min_relative_shape;
+  found["mean_relative_shape"] = outcome.followed->mean_relative_shape;
+  found["invalid_held"] = outcome.followed->invalid_held;
+  nb::list crossings;
+  for (const auto& [a, b, c, d] : outcome.followed->crossings) {
+    crossings.append(nb::make_tuple(nb::make_tuple(a, b), nb::make_tuple(c, d)));
+  }
+  found["crossings"] = crossings;
+  found["overlaps"] = outcome.followed->overlaps;
+  found["invalid"] = outcome.followed->invalid;
+  found["largest_move"] = outcome.followed->largest_move;
+  return found;
+}
+
 /// A property of the smoothing's result.
 template <auto member>
 auto of_smoothing() {
@@ -187,6 +208,7 @@ void bind_results(nb::module_& module) {
       .def_prop_ro("guard_rounds", of_smoothing<&SmoothingResult::guard_rounds>())
       .def_prop_ro("free_vertices", of_smoothing<&SmoothingResult::free_vertices>())
       .def_prop_ro("layers", &layers_of)
+      .def_prop_ro("following", &following_of)
       .def_prop_ro("inverted", of_smoothing<&SmoothingResult::inverted>())
       .def_prop_ro("degenerate", of_smoothing<&SmoothingResult::degenerate>())
       .def_prop_ro("colours", of_smoothing<&SmoothingResult::colours>())

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <optional>
@@ -5,6 +6,7 @@
 #include <nanobind/nanobind.h>
 
 #include "trismooth/quality/quality_report.h"
+#include "trismooth/smoothing/moving_mesh.h"
 #include "trismooth/smoothing/result.h"
 
 namespace trismooth::python {
@@ -14,6 +16,8 @@ struct Outcome {
   SmoothingResult smoothing;
   std::optional<QualityReport> before;  ///< where it was asked for
   std::optional<QualityReport> after;   ///< where it was asked for
+  /// Of a mesh that followed its boundary; its `smoothing` is above.
+  std::optional<FollowResult> followed;
 };
 
 /// Makes the classes of results: Outcome, SweepRecord, SlidingResult, QualityReport, MetricSummary, WorstElement.

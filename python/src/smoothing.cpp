@@ -1,9 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/smoothing.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,10 +21,12 @@
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 #include "trismooth/python/interruption.h"
+#include "trismooth/python/new_array.h"
 #include "trismooth/python/options.h"
 #include "trismooth/python/results.h"
 #include "trismooth/python/turns.h"
 #include "trismooth/quality/quality.h"
+#include "trismooth/smoothing/moving_mesh.h"
 #include "trismooth/smoothing/smooth.h"
 
 namespace nb = nanobind;
@@ -70,7 +76,7 @@ int threads_to_copy(const PointArray& points, int threads) {
   return points.size() <= few ? 1 : threads;
 }
 
-/// Smooths `points` into `out` by smooth(PointView), which returns a SmoothingResult; the GIL is not held while it
+/// Smooths `points` into `out` by smooth(view, outcome), which fills in what it did; the GIL is not held while it
 /// runs. `mesh_quality` makes the MeshQuality for the reports before and after; null where they are not wanted.
 /// `accept` is called with the outcome before anything is written, and may raise: it has the warnings.
 template <class Smooth>
@@ -92,9 +98,13 @@ Outcome smooth_into(const HostArray& points_array, const HostArray& out_array, W
         quality.emplace(mesh_quality());
         outcome.before = quality->report(working.view(), {.threads = threads});
       }
-      outcome.smoothing = smooth(working.view());
+      smooth(working.view(), outcome);
       if (quality) {
         outcome.after = quality->report(working.view(), {.threads = threads});
+        if (outcome.smoothing.inverted < 0) {  // the call was over before anybody had counted them
+          outcome.smoothing.inverted = outcome.after->inverted;
+          outcome.smoothing.degenerate = outcome.after->degenerate;
+        }
       }
     });
     are_still = working.are_still(points, workers);
@@ -129,7 +139,8 @@ Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb:
     raise_value_error("slide", "is for triangles of three nodes; those of six have middles on their sides");
   }
   Interruption interruption(progress);
-  options.progress = std::ref(interruption);
+  Interruption* const current = &interruption;
+  Interruption::watch(options, current);
   const IndexView corners = triangles.corners();
   const Constraints all = held.constraints(call.slide);
   WorkingPoints working;
@@ -137,77 +148,188 @@ Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb:
   if (with_quality) {
     mesh_quality = [&] { return MeshQuality(static_cast<std::int64_t>(points.size()), corners, options.threads); };
   }
-  return smooth_into(points_array, out, working, mesh_quality, options.threads, accept, [&](const PointView& view) {
-    if (triangles.nodes() == 6) {
-      const std::vector<std::int32_t> nodes = triangles.six_nodes(static_cast<std::int64_t>(points.size()));
-      return trismooth::smooth_quadratic(view, nodes, all, options);
-    }
-    return trismooth::smooth(view, corners, all, options);
-  });
+  return smooth_into(points_array, out, working, mesh_quality, options.threads, accept,
+                     [&](const PointView& view, Outcome& outcome) {
+                       if (triangles.nodes() == 6) {
+                         const auto nodes = triangles.six_nodes(static_cast<std::int64_t>(points.size()));
+                         outcome.smoothing = trismooth::smooth_quadratic(view, nodes, all, options);
+                       } else {
+                         outcome.smoothing = trismooth::smooth(view, corners, all, options);
+                       }
+                     });
 }
 
-/// A SmoothingPlan for Python: with all it refers to, for one thread at a time.
-class HostPlan {
+/// Triangles that are prepared once for points that change: with all they refer to, for one thread at a time.
+class PreparedTriangles {
  public:
-  HostPlan(nb::handle triangles_object, std::size_t vertex_count, const nb::dict& constraints,
-           const nb::dict& arguments)
-      : vertex_count_(vertex_count) {
+  std::size_t vertex_count() const { return vertex_count_; }
+  std::size_t triangle_count() const { return triangles_.size(); }
+
+ protected:
+  /// `what`: what this is, in messages: "plan".
+  PreparedTriangles(std::size_t vertex_count, const char* what) : vertex_count_(vertex_count), what_(what) {}
+
+  /// Reads the arrays and options of Python, and calls make(triangles, constraints, options) without the GIL. The
+  /// options stay valid with the callbacks of each call. `otherwise`: see parse_options().
+  template <class Make>
+  void prepare(nb::handle triangles_object, const nb::dict& constraints, const nb::dict& arguments,
+               const SmoothingOptions& otherwise, const Make& make) {
     const HostArray numbers(triangles_object, "triangles");
     const TriangleArray triangles(numbers);
     if (triangles.nodes() != 3) {
-      numbers.raise_value("a plan is for triangles of three nodes; smooth() takes those of six");
+      numbers.raise_value("a " + std::string(what_) + " is for triangles of three nodes; smooth() takes those of six");
     }
-    const ConstraintArrays held(constraints, vertex_count, triangles.size());
-    CallOptions call = parse_options(arguments);
+    const ConstraintArrays held(constraints, vertex_count_, triangles.size());
+    CallOptions call = parse_options(arguments, otherwise);
     SmoothingOptions& options = call.smoothing;
     sizes_ = held.sizes();
     options.mean_ratio.target_lengths = sizes_;
-    options.progress = [this](const SweepRecord& sweep) { return (*interruption_)(sweep); };
+    Interruption making{nb::none()};
+    interruption_ = &making;
+    Interruption::watch(options, interruption_);
     threads_ = options.threads;
     const Constraints all = held.constraints(call.slide);
     const nb::gil_scoped_release no_gil;
     naming_arguments([&] {
       const IndexView corners = triangles.corners();
-      const std::span<const Triangle> kept = corners.triangles(static_cast<std::int64_t>(vertex_count), triangles_);
+      const std::span<const Triangle> kept = corners.triangles(static_cast<std::int64_t>(vertex_count_), triangles_);
       if (kept.data() != triangles_.data()) {
         triangles_.assign(kept.begin(), kept.end());
       }
-      plan_.emplace(static_cast<std::int64_t>(vertex_count), triangles_, all, options);
+      make(triangles_, all, options);
     });
   }
 
-  Outcome smooth(nb::handle points_object, nb::handle out_object, bool with_quality, const nb::object& progress,
-                 const nb::callable& accept) {
+  /// See smooth_into(). Waits for other threads' calls.
+  template <class Smooth>
+  Outcome smooth_points(
+      nb::handle points_object, nb::handle out_object, bool with_quality, const nb::object& progress,
+      const nb::callable& accept, const Smooth& smooth, const std::function<void()>& undo = [] {}) {
     const HostArray points_array(points_object, "points");
     const PointArray points(points_array);
     if (points.size() != vertex_count_) {
-      points_array.raise_value("shape " + points_array.shape_text() + "; the plan has " +
+      points_array.raise_value("shape " + points_array.shape_text() + "; the " + what_ + " has " +
                                std::to_string(vertex_count_) + " vertices");
     }
     const HostArray out(out_object, "out", HostArray::Access::write);
-    const Turn turn(turns_, "the plan");
+    const Turn turn(turns_, ("the " + std::string(what_)).c_str());
     Interruption interruption(progress);
     interruption_ = &interruption;
     std::function<MeshQuality()> mesh_quality;
     if (with_quality) {
       mesh_quality = [this] { return MeshQuality(static_cast<std::int64_t>(vertex_count_), triangles_, threads_); };
     }
-    return smooth_into(points_array, out, working_, mesh_quality, threads_, accept,
-                       [this](const PointView& view) { return plan_->smooth(view); });
+    try {
+      return smooth_into(points_array, out, working_, mesh_quality, threads_, accept, smooth);
+    } catch (...) {
+      undo();
+      throw;
+    }
   }
 
-  std::size_t vertex_count() const { return vertex_count_; }
-  std::size_t triangle_count() const { return triangles_.size(); }
+  /// Calls use(points) with the numbers of an array of all vertices.
+  template <class Use>
+  void with_points(const HostArray& array, int threads, const Use& use) {
+    const PointArray points(array);
+    Workers workers(threads_to_copy(points, threads));
+    working_.read(points, workers);
+    use(ConstPointView(working_.view()));
+  }
+
+  WorkingPoints working_;  ///< kept: new memory costs as much as a sweep
+  Turns turns_;
+  int threads_ = 0;
 
  private:
   std::size_t vertex_count_;
+  const char* what_;
   std::vector<double> sizes_;
-  int threads_ = 0;
   std::vector<Triangle> triangles_;
   Interruption* interruption_ = nullptr;  ///< of the call that is at work
+};
+
+/// A SmoothingPlan for Python.
+class HostPlan : public PreparedTriangles {
+ public:
+  HostPlan(nb::handle triangles, std::size_t vertex_count, const nb::dict& constraints, const nb::dict& arguments)
+      : PreparedTriangles(vertex_count, "plan") {
+    prepare(triangles, constraints, arguments, {},
+            [&](std::span<const Triangle> corners, const Constraints& all, const SmoothingOptions& options) {
+              plan_.emplace(static_cast<std::int64_t>(vertex_count), corners, all, options);
+            });
+  }
+
+  Outcome smooth(nb::handle points, nb::handle out, bool with_quality, const nb::object& progress,
+                 const nb::callable& accept) {
+    return smooth_points(points, out, with_quality, progress, accept,
+                         [this](const PointView& view, Outcome& outcome) { outcome.smoothing = plan_->smooth(view); });
+  }
+
+ private:
   std::optional<SmoothingPlan> plan_;
-  WorkingPoints working_;  ///< kept: new memory costs as much as a sweep
-  Turns turns_;
+};
+
+/// A MovingMesh for Python.
+class HostMovingMesh : public PreparedTriangles {
+ public:
+  HostMovingMesh(nb::handle reference_object, nb::handle triangles, const nb::dict& constraints,
+                 const nb::dict& arguments)
+      : HostMovingMesh(HostArray(reference_object, "points"), triangles, constraints, arguments) {}
+
+  Outcome follow(nb::handle points, nb::handle out, const std::string& start, bool with_quality,
+                 const nb::object& progress, const nb::callable& accept) {
+    MovingStart from{};
+    try {
+      from = parse_enum<MovingStart>(start);
+    } catch (const std::invalid_argument& error) {
+      raise_value_error("start", error.what());
+    }
+    std::optional<std::vector<Point2<double>>> last;  // of a call whose result nobody gets, nothing remains
+    return smooth_points(
+        points, out, with_quality, progress, accept,
+        [&](const PointView& view, Outcome& outcome) {
+          last = mesh_->points();
+          outcome.followed = mesh_->follow(view, from);
+          outcome.smoothing = std::move(outcome.followed->smoothing);
+        },
+        [&] {
+          if (last) {
+            mesh_->go_on_from(*last);
+          }
+        });
+  }
+
+  void go_on_from(nb::handle points) {
+    const HostArray array(points, "points");
+    const Turn turn(turns_, "the moving mesh");
+    with_points(array, threads_, [this](const ConstPointView& view) { mesh_->go_on_from(view); });
+  }
+
+  /// One flag a vertex: whether the caller says where it is.
+  nb::object held() {
+    const Turn turn(turns_, "the moving mesh");
+    std::vector<std::uint8_t> flags = mesh_->held();
+    std::ranges::transform(flags, flags.begin(), [](std::uint8_t why) { return why != 0 ? 1 : 0; });
+    return new_array<bool, 1>(std::move(flags), {vertex_count()});
+  }
+
+  nb::object points() {
+    const Turn turn(turns_, "the moving mesh");
+    return new_array<double, 2>(mesh_->points(), {vertex_count(), 2});
+  }
+
+ private:
+  HostMovingMesh(const HostArray& reference_array, nb::handle triangles, const nb::dict& constraints,
+                 const nb::dict& arguments)
+      : PreparedTriangles(PointArray(reference_array).size(), "moving mesh") {
+    prepare(triangles, constraints, arguments, moving_options(),
+            [&](std::span<const Triangle> corners, const Constraints& all, const SmoothingOptions& options) {
+              with_points(reference_array, options.threads,
+                          [&](const ConstPointView& reference) { mesh_.emplace(reference, corners, all, options); });
+            });
+  }
+
+  std::optional<MovingMesh> mesh_;
 };
 
 std::vector<std::string> methods() {
@@ -231,6 +353,16 @@ void bind_smoothing(nb::module_& module) {
       .def("smooth", &HostPlan::smooth, "points"_a, "out"_a, "quality"_a, "progress"_a.none(), "accept"_a)
       .def_prop_ro("vertex_count", &HostPlan::vertex_count)
       .def_prop_ro("triangle_count", &HostPlan::triangle_count);
+  nb::class_<HostMovingMesh>(module, "HostMovingMesh")
+      .def(nb::init<nb::handle, nb::handle, const nb::dict&, const nb::dict&>(), "points"_a, "triangles"_a,
+           "constraints"_a, "options"_a)
+      .def("follow", &HostMovingMesh::follow, "points"_a, "out"_a, "start"_a, "quality"_a, "progress"_a.none(),
+           "accept"_a)
+      .def("go_on_from", &HostMovingMesh::go_on_from, "points"_a)
+      .def_prop_ro("held", &HostMovingMesh::held)
+      .def_prop_ro("points", &HostMovingMesh::points)
+      .def_prop_ro("vertex_count", &HostMovingMesh::vertex_count)
+      .def_prop_ro("triangle_count", &HostMovingMesh::triangle_count);
 }
 
 }  // namespace trismooth::python

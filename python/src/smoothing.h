@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <nanobind/nanobind.h>
 
 namespace trismooth::python {
 
-/// Makes smooth() and Plan for arrays in memory of the host.
+/// Makes smooth(), Plan and MovingMesh for arrays in memory of the host.
 void bind_smoothing(nanobind::module_& module);
 
 /// Makes quality() for them.

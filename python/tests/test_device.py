@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Arrays on a CUDA device: they stay there, come back as what they are, and have the CPU's bits.
 
 Skipped where the build has no CUDA, the machine no device, or a library is missing.
@@ -166,6 +167,19 @@ def test_lines_named_on_the_host_slide_on_the_device_too():
     expected = trismooth.smooth(points, triangles, backend="cpu", **given)
     np.testing.assert_array_equal(result.points, expected.points)
     assert repr(result.sliding) == repr(expected.sliding)
+
+
+def test_a_mesh_follows_its_boundary_on_the_device_to_the_cpus_bits():
+    points, triangles = grid(60, 40)
+    here = trismooth.MovingMesh(points, triangles, backend="cuda")
+    there = trismooth.MovingMesh(points, triangles)
+    for height in (1.2, 0.7, 1.0):
+        for start in ("reference", "previous"):
+            now = np.where(here.held[:, None], points * [1, height], points)
+            result, expected = here.follow(now, start=start), there.follow(now, start=start)
+            np.testing.assert_array_equal(result.points, expected.points)
+            assert result.backend == "cuda"
+            assert result.min_relative_shape == expected.min_relative_shape
 
 
 def test_any_strides_and_heights(writable):

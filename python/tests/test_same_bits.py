@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The same bits as the program, for every option."""
 
 from __future__ import annotations
@@ -55,6 +56,8 @@ SINGLE = [
     {"evaluation": "all"},
     {"record_min_shape": True},
 ]
+# What the program has for meshes that move alone.
+MOVING = [{"method": "mean-ratio", "steady": True}, {"method": "mean-ratio", "steady": False, "form": "a"}]
 
 
 @pytest.fixture(scope="module")
@@ -75,10 +78,20 @@ def test_every_option_gives_the_bits_of_the_program(tangled_file, options, tmp_p
     assert of_file.report["coordinates_hash"] == hash_of(mesh.points) == hash_of(result.points)
 
 
+@pytest.mark.parametrize("options", MOVING, ids=str)
+def test_what_is_for_meshes_that_move_gives_a_plan_the_same_bits(options):
+    points, triangles = grid(40, 30, shift=0.3)
+    expected = trismooth.smooth(points, triangles, **options)
+    plan = trismooth.Plan(triangles, len(points), **options)
+    np.testing.assert_array_equal(plan.smooth(points).points, expected.points)
+    unlike = trismooth.smooth(points, triangles, **{**options, "steady": not options["steady"]})
+    assert (unlike.points != expected.points).any()
+
+
 def test_the_list_of_options_here_is_that_of_the_module():
     from trismooth import _core
 
-    tested = {name for options in COMBINATIONS + SINGLE for name in options}
+    tested = {name for options in COMBINATIONS + SINGLE + MOVING for name in options}
     # "unordered" has no bits that last, and devices are for test_device.py.
     assert set(_core.option_names()) == tested | {"order", "devices"}
 

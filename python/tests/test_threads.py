@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Threads, forked processes and Ctrl-C."""
 
 from __future__ import annotations
@@ -183,6 +184,33 @@ def test_ctrl_c_stops_and_leaves_out_as_it_was(interruptible):
         if is_smoothing and not out.any():
             return
     pytest.fail("Ctrl-C never stopped a smoothing")
+
+
+def test_ctrl_c_is_heard_before_the_first_sweep(interruptible):
+    """While a large mesh is made ready, which takes many times as long as the signal: alone, and for a plan."""
+    points, triangles = grid(900, 900, shift=0.45)
+    for call in (lambda: trismooth.smooth(points, triangles, threads=1, max_sweeps=1, quality=False),
+                 lambda: trismooth.Plan(triangles, len(points), threads=1)):
+        begin = time.monotonic()
+        call()
+        whole = time.monotonic() - begin
+        threading.Timer(whole / 20, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        with pytest.raises(KeyboardInterrupt):
+            call()
+            time.sleep(10)  # it was quicker than that
+        assert time.monotonic() - begin < whole
+
+
+def test_no_time_is_said_and_nothing_moves():
+    points, triangles = grid(30, 30)
+    with pytest.warns(trismooth.MeshWarning, match="time was up before the first sweep"):
+        result = trismooth.smooth(points, triangles, time_limit=0.0)
+    assert (result.stop_reason, result.sweeps, result.moved) == ("time_limit", 0, 0)
+    assert result.inverted == result.after.inverted
+    np.testing.assert_array_equal(result.points, points)
+    with pytest.warns(trismooth.MeshWarning):
+        assert trismooth.smooth(points, triangles, time_limit=0.0, quality=False).inverted == -1
 
 
 def test_two_processes_give_the_same_bits_whatever_their_threads():

@@ -1,10 +1,12 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Smoothing of planar triangle meshes for finite elements, on the CPU and on NVIDIA GPUs.
 
 The same bits on every backend, and never worse than the input:
 
     result = trismooth.smooth(points, triangles)     # arrays, or a mesh of PyVista, meshio, scikit-fem, ...
     quality = trismooth.quality(points, triangles)   # ten metrics of every triangle
-    plan = trismooth.Plan(triangles, len(points))    # meshes that move
+    plan = trismooth.Plan(triangles, len(points))    # the same triangles again and again
+    mesh = trismooth.MovingMesh(points, triangles)   # meshes that follow their boundary
     mesh = trismooth.read("in.msh")                  # files, with nothing lost
     trismooth.gmsh.smooth()                          # the current model of Gmsh
 """
@@ -18,6 +20,7 @@ from ._core import Cancelled, DeviceError, MeshError, MetricSummary, QualityRepo
 from ._core import SweepRecord, WorstElement, WriteError
 from ._core import __version__ as __version__
 from ._mesh import Mesh, read
+from ._moving import FollowResult, MovingMesh
 from ._notes import MeshWarning
 from ._plan import Plan
 from ._quality import METRICS, Quality, quality
@@ -30,10 +33,12 @@ __all__ = [
     "METRICS",
     "Cancelled",
     "DeviceError",
+    "FollowResult",
     "Mesh",
     "MeshError",
     "MeshWarning",
     "MetricSummary",
+    "MovingMesh",
     "NotComputed",
     "Plan",
     "Quality",

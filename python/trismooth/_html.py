@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What Jupyter shows of results: the top of the program's HTML report, without scripts or styles for other elements."""
 
 from __future__ import annotations
@@ -123,7 +124,9 @@ def _outcome(result: Result, after: Optional[QualityReport]) -> str:
     if after is not None and after.triangles == 0:
         return ""
     if result.moved == 0:
-        return "No vertex could be improved: the mesh is as it was."
+        why = {"quality_target": "The mesh has the target quality already", "time_limit": "There was no time for a sweep"}
+        nothing = why.get(result.stop_reason) if result.sweeps == 0 else None
+        return f"{nothing or 'No vertex could be improved'}: the mesh is as it was."
     reason = _STOP_REASONS.get(result.stop_reason, result.stop_reason)
     sliding = result.sliding
     slid = ""

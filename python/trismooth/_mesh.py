@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Mesh files: read, smoothed, written back with nothing lost, as the program does it."""
 
 from __future__ import annotations
@@ -38,11 +39,11 @@ class FileResult(Result):
 
     __slots__ = ("report", "warnings", "losses")
 
-    def __init__(self, outcome: Any, mesh: Mesh) -> None:
+    def __init__(self, outcome: Any, mesh: Mesh, report: Dict[str, Any]) -> None:
         linear = mesh.triangles
         super().__init__(outcome.outcome, mesh.points, linear if len(linear) > 0 else mesh.quadratic_triangles)
         self.mesh = mesh
-        self.report: Dict[str, Any] = json.loads(outcome.json)
+        self.report = report
         self.notes = _said(outcome)
         self.warnings: List[str] = [in_python(warning) for warning in outcome.warnings]
         self.losses: List[str] = [in_python(loss) for loss in outcome.losses]
@@ -218,9 +219,16 @@ class Mesh:
             "project": project,
             "geographic": geographic,
         }
+        report: Dict[str, Any] = {}
+
+        def accept(outcome: Any) -> None:
+            """All that may take long or raise, while the mesh is still as it was."""
+            report.update(json.loads(outcome.json))
+            warn_of(_said(outcome))
+
         with _errors_in_python():
-            outcome = self._mesh.smooth(options, held, progress, lambda outcome: warn_of(_said(outcome)))
-        return FileResult(outcome, self)
+            outcome = self._mesh.smooth(options, held, progress, accept)
+        return FileResult(outcome, self, report)
 
     def quality(self, *, project: Optional[str] = None, geographic: bool = False, threads: int = 0) -> QualityReport:
         """The quality of the mesh as it is now: what ``trismooth quality`` shows."""

@@ -1,8 +1,9 @@
-"""Meshes that move: connectivity analysed once, coordinates smoothed as often as they change."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Connectivity analysed once, coordinates smoothed as often as they change."""
 
 from __future__ import annotations
 
-from typing import Any, Dict, Optional
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 from . import _arrays, _core
 from ._constraints import Constraints
@@ -10,6 +11,38 @@ from ._notes import options_without_effect, warn_of
 from ._repeats import Repeats, find_repeats
 from ._result import Result, notes_of
 from ._smooth import Progress
+
+
+class OnHost:
+    """Triangles in memory of the host, each counted once, and what is made ready of them."""
+
+    def __init__(
+        self,
+        triangles: Any,
+        n_points: int,
+        constraints: Constraints,
+        make: Callable[[Any, Dict[str, Any]], Any],
+    ) -> None:
+        corners = _arrays.on_host(triangles, "triangles")
+        self._triangles = triangles
+        self._repeats: Optional[Repeats] = find_repeats(corners, n_points)
+        self.notes: List[str] = []
+        if self._repeats is not None:
+            corners = self._repeats.triangles()
+            constraints = self._repeats.leave_out(constraints, n_points)
+            self.notes = self._repeats.notes
+        self.made: Any = make(corners, constraints.on_host())
+
+    def smoothed(
+        self, points: Any, out: Any, smooth: Callable[..., _core.Outcome], notes: Callable[[_core.Outcome], List[str]]
+    ) -> Tuple[_core.Outcome, Any, Any, Any, List[str]]:
+        """What a result is made of. ``smooth`` is called with points, output and what warns of its notes."""
+        numbers = _arrays.on_host(points, "points", float)
+        output = _arrays.Output(points, numbers, out)
+        outcome = smooth(numbers, output.numbers, lambda outcome: warn_of(notes(outcome)))
+        if self._repeats is not None:
+            outcome = self._repeats.renumbered(outcome)
+        return outcome, output.delivered(), self._triangles, output.input_points(), notes(outcome)
 
 
 class Plan:
@@ -62,33 +95,23 @@ class Plan:
         options["slide"] = slide
         constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
         self._notes = options_without_effect(options, size)
-        self._triangles = triangles
-        self._repeats: Optional[Repeats] = None
         self._on_device = _arrays.device_of(triangles) is not None
         if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or not 0 <= n_points < 2**31:
             raise ValueError(f"n_points: the number of vertices is needed, not {n_points!r}")
-        self._plan: Any = self._on_device_or_host(n_points, constraints, options)
-        warn_of(self._notes)
-
-    def _on_device_or_host(self, n_points: int, constraints: Constraints, options: Dict[str, Any]) -> Any:
+        self._plan: Any
         if self._on_device:
             from . import _device
 
-            return _device.DevicePlan(self._triangles, n_points, constraints, options)
-        if "stream" in options:
-            raise TypeError("stream: is for arrays on a CUDA device, and triangles are in memory of the host")
-        corners = _arrays.on_host(self._triangles, "triangles")
-        self._repeats = find_repeats(corners, n_points)
-        if self._repeats is not None:
-            corners = self._repeats.triangles()
-            constraints = self._repeats.leave_out(constraints, n_points)
-            self._notes = [*self._repeats.notes, *self._notes]
-        return _core.HostPlan(
-            corners,
-            n_points,
-            constraints.on_host(),
-            options,
-        )
+            self._plan = _device.DevicePlan(triangles, n_points, constraints, options)
+        else:
+            if "stream" in options:
+                raise TypeError("stream: is for arrays on a CUDA device, and triangles are in memory of the host")
+            self._mesh = OnHost(
+                triangles, n_points, constraints, lambda corners, held: _core.HostPlan(corners, n_points, held, options)
+            )
+            self._plan = self._mesh.made
+            self._notes = [*self._mesh.notes, *self._notes]
+        warn_of(self._notes)
 
     @property
     def n_points(self) -> int:
@@ -134,14 +157,11 @@ class Plan:
             result: Result = self._plan.smooth(points, out, quality, progress)
             warn_of(result.notes)
             return result
-        numbers = _arrays.on_host(points, "points", float)
-        output = _arrays.Output(points, numbers, out)
-        outcome = self._plan.smooth(
-            numbers, output.numbers, quality, progress, lambda outcome: warn_of(notes_of(outcome))
+        return Result(
+            *self._mesh.smoothed(
+                points, out, lambda given, into, accept: self._plan.smooth(given, into, quality, progress, accept), notes_of
+            )
         )
-        if self._repeats is not None:
-            outcome = self._repeats.renumbered(outcome)
-        return Result(outcome, output.delivered(), self._triangles, output.input_points())
 
     def __repr__(self) -> str:
         return f"<trismooth.Plan: {self.n_points} vertices, {self.n_triangles} triangles>"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a smoothing hands back."""
 
 from __future__ import annotations
@@ -24,8 +25,15 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     if outcome.untangling is None:
         why = "nothing untangled the mesh; untangle=True does"
     else:
-        why = "the untangling could not mend more; what is held altogether nothing can"
+        why = "the untangling could not mend more, and triangles that are held at all three vertices stay as they are"
     return [f"the result has {' and '.join(found)}: {why}"]
+
+
+def time_note(outcome: _core.Outcome) -> List[str]:
+    """What to say where there was no time for any sweep: a sentence, or none."""
+    if outcome.stop_reason != "time_limit" or outcome.sweeps > 0:
+        return []
+    return ["the time was up before the first sweep, so no sweep has moved anything; give time_limit more"]
 
 
 def layers_notes(outcome: _core.Outcome) -> List[str]:
@@ -66,7 +74,12 @@ def touching_lines_note(outcome: _core.Outcome) -> List[str]:
 
 def notes_of(outcome: _core.Outcome) -> List[str]:
     """What to say of what a smoothing did, one sentence each."""
-    return [*layers_notes(outcome), *touching_lines_note(outcome), *invalid_triangles_note(outcome)]
+    return [
+        *layers_notes(outcome),
+        *touching_lines_note(outcome),
+        *time_note(outcome),
+        *invalid_triangles_note(outcome),
+    ]
 
 
 def free_moved(result: Result) -> int:
@@ -210,12 +223,12 @@ class Result:
     @property
     def inverted(self) -> int:
         """How many triangles are inverted in the result: those against the majority of their component. Of all, with a
-        free vertex or not; counted always."""
+        free vertex or not; counted always, but -1 where the time was up before anybody could and quality=False."""
         return self._outcome.inverted
 
     @property
     def degenerate(self) -> int:
-        """How many triangles have no area in the result."""
+        """How many triangles have no area in the result; -1 where inverted is."""
         return self._outcome.degenerate
 
     @property

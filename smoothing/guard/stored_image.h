@@ -1,9 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/base/storage.h"
 
 namespace trismooth {
 
@@ -25,5 +29,28 @@ struct StoredImage {
   /// What is stored of a number that was `before` and is to be `now`: where it stays, its bits.
   double stored(double before, double now) const { return now == before ? before : rounded(now); }
 };
+
+/// The plane itself: x and y of that type are stored.
+inline StoredImage plane_image(Storage storage) {
+  return {2,
+          [](std::size_t /*vertex*/, const double* stored) {
+            return Point2<double>{stored[0], stored[1]};
+          },
+          [](const double* /*stored*/, Point2<double> /*from*/, Point2<double> to, double* moved) {
+            moved[0] = to.x;
+            moved[1] = to.y;
+          },
+          [storage](double number) { return rounded_to(storage, number); }};
+}
+
+/// The numbers that plane_image() stores of these points.
+inline std::vector<double> numbers_of(std::span<const Point2<double>> points) {
+  std::vector<double> numbers;
+  numbers.reserve(2 * points.size());
+  for (const Point2<double> p : points) {
+    numbers.insert(numbers.end(), {p.x, p.y});
+  }
+  return numbers;
+}
 
 }  // namespace trismooth

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/in_parts/parts_smoother.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "trismooth/base/local_points.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/text/list_text.h"
@@ -44,7 +47,7 @@ class PartsSmoother final : public PreparedSmoother {
     const Stopwatch watch;
     mesh.fixed = fixed_;
     std::vector<CutPart> cut =
-        cut_into_parts(mesh, triangles, local, team_, static_cast<bool>(options.progress), workers_);
+        cut_into_parts(mesh, triangles, local, team_, options.progress || options.cancel, workers_);
     mesh = {};
     for (CutPart& part : cut) {
       parts_.emplace_back();
@@ -65,7 +68,11 @@ class PartsSmoother final : public PreparedSmoother {
     require_target_lengths(options_, fixed_);
     const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
     std::vector<SmoothingResult> results(parts_.size());
+    const CallLimit::Clock::time_point begin = CallLimit::begin_of_current();
+    CallLimit::lift_current();  // what the parts have done by then is put together
     team_.run([&](int number) {
+      CallLimit limit(options_.time_limit_seconds, number == 0 ? options_.cancel : std::function<bool()>(), begin);
+      limit.lift();
       Part& part = parts_[static_cast<std::size_t>(number)];
       part.read(points, options_.aims_at_sizes() ? lengths() : std::span<const double>());
       results[static_cast<std::size_t>(number)] = part.smoother->smooth(part.points, storage, frame);
@@ -86,7 +93,7 @@ class PartsSmoother final : public PreparedSmoother {
     BulkVector<Point2<double>> points;  ///< of a call
     std::unique_ptr<PreparedSmoother> smoother;
 
-    void read(std::span<const Point2<double>> whole, std::span<const double> lengths_of_whole) {
+    void read(std::span<const Point2<double>> whole, const RealView& lengths_of_whole) {
       points.resize(vertices.size());
       std::ranges::transform(vertices, points.begin(), [&](std::int32_t v) { return whole[v]; });
       if (!lengths_of_whole.empty()) {
@@ -95,7 +102,7 @@ class PartsSmoother final : public PreparedSmoother {
     }
   };
 
-  std::span<const double> lengths() const { return options_.mean_ratio.target_lengths; }
+  const RealView& lengths() const { return options_.mean_ratio.target_lengths; }
 
   /// The options for a part's own numbers. The caller's callback is called by one of them.
   SmoothingOptions of_part(int number) {

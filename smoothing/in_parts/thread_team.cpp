@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/in_parts/thread_team.h"
 
 #include <condition_variable>
@@ -12,6 +13,8 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "trismooth/base/machine/call_limit.h"
 
 namespace trismooth {
 
@@ -172,6 +175,8 @@ std::shared_ptr<PartMessenger> ThreadTeam::messenger(int part) const {
 }
 
 void ThreadTeam::run(const std::function<void(int)>& task) {
+  // One part alone must not leave the others waiting for it.
+  const CallLimit::Hidden no_limit;
   const auto tried = [&](int part) {
     try {
       task(part);

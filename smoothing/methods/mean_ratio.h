@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -39,6 +40,7 @@ struct MeanRatioStep {
   T relaxation = 1;     ///< the first step tried, in Newton steps
   T least_gain = 0;     ///< of a step, relative to the energy, as Newton's model foretells it: less is not worth a move
   bool is_last = true;  ///< the power is that of MeanRatioScales, else 1
+  bool is_soft = false;  ///< steps are cut short by the part of least_gain in their gain: nothing jumps where that ends
 };
 
 /// A move by the energy, or several in lanes. V: a number, or lanes of it.
@@ -116,13 +118,17 @@ class MeanRatio {
         sides.template totals<7>(position, [&](const auto& triangle) { return energy.expansion(triangle); });
     const auto [value, x, y, xx, xy, yy, squares] = at.sums;
     const V inverse = T(1) / (xx * yy - xy * xy);
-    const Point2<V> newton{inverse * (xy * y - yy * x), inverse * (xy * x - xx * y)};
+    Point2<V> newton{inverse * (xy * y - yy * x), inverse * (xy * x - xx * y)};
     // Half of this is what a Newton step gains where the energy is quadratic. (The expansion is that of the energy
     // divided by the power.)
     const V gain = -static_cast<T>(energy.power) * (newton.x * x + newton.y * y);
 
     NewtonMove<V> result{position, squares, at.smallest_margin > T(0), Mask{}};
     Mask open = result.is_valid && inverse > T(0) && gain > step_.least_gain * value;
+    if (step_.is_soft) {
+      const V part = T(1) - step_.least_gain * value / gain;
+      newton = {part * newton.x, part * newton.y};
+    }
     T length = step_.relaxation;
     for (int tries = 0; tries < most_tries && sides.any(open); ++tries) {
       const Point2<V> target{position.x + length * newton.x, position.y + length * newton.y};

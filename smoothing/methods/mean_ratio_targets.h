@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "trismooth/quality/triangle_quality.h"
@@ -131,6 +133,43 @@ constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> edges_nearby(std::int32_t v, const
     edges.add(around[ring.number(i)]);
   }
   return edges;
+}
+
+/// How far the edges of a free vertex are turned on the whole since a reference, as a complex number of length 1.
+/// `before(u)`: where packed vertex u was.
+template <class T, class Ring, class Before>
+TRISMOOTH_HOST_DEVICE Point2<T> turn_of_edges(std::int32_t v, Point2<T> position, const Ring& ring,
+                                              const Before& before) {
+  Point2<T> sum{0, 0};
+  for (int i = 0; i < ring.size(); ++i) {
+    const Point2<T> was = before(ring.number(i)) - before(v);
+    const Point2<T> now = ring[i] - position;
+    sum.x += was.x * now.x + was.y * now.y;
+    sum.y += was.x * now.y - was.y * now.x;
+  }
+  const T length = std::sqrt(sum.x * sum.x + sum.y * sum.y);
+  return length > T(0) ? Point2<T>{sum.x / length, sum.y / length} : Point2<T>{1, 0};
+}
+
+/// Edges turned so.
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<T> turned(const EdgeTensor<T>& edges, Point2<T> by) {
+  const T cc = by.x * by.x;
+  const T cs = by.x * by.y;
+  const T ss = by.y * by.y;
+  return {(cc * edges.xx + ss * edges.yy) - (cs + cs) * edges.xy, cs * (edges.xx - edges.yy) + (cc - ss) * edges.xy,
+          (ss * edges.xx + cc * edges.yy) + (cs + cs) * edges.xy};
+}
+
+/// Targets of a reference, MeanRatioTargets::inverse_areas and largest_shares of a vertex, where the exponent of the
+/// local frame is larger by so much. (Scales have no lengths.)
+template <class T>
+TRISMOOTH_HOST_DEVICE T inverse_area_in(T of_reference, int exponents) {
+  return std::ldexp(of_reference, 2 * exponents);
+}
+template <class T>
+TRISMOOTH_HOST_DEVICE T largest_share_in(T of_reference, int exponents) {
+  return std::ldexp(of_reference, -4 * exponents);
 }
 
 /// What one vertex adds to the sums beside that, where sizes are asked for. `inverse_sizes`: see relative_sizes.h, by

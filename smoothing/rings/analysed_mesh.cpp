@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/rings/analysed_mesh.h"
 
 #include <utility>
@@ -21,14 +22,16 @@ AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> 
 bool AnalysedMesh::look_at(std::span<const Point2<double>> local, std::span<const Triangle> triangles, Layers layers,
                            Workers& workers) {
   Orientation orientation = orient(connectivity_.components(), triangles, local, workers);
-  const bool is_first = !std::exchange(has_found_layers_, true);
+  const bool is_first = !has_found_layers_;
+  // Each of these once, also where what comes next is given up.
   if (is_first) {
     mesh_.layers =
         hold_layers(local, triangles, orientation.reversed, layers, slide_.has_value(), mesh_.fixed, workers);
-    if (slide_) {
-      mesh_.slidable = find_slidable(triangles, mesh_.fixed, slide_->view(), workers);
-      slide_.reset();
-    }
+    has_found_layers_ = true;
+  }
+  if (slide_) {
+    mesh_.slidable = find_slidable(triangles, mesh_.fixed, slide_->view(), workers);
+    slide_.reset();
   }
   mesh_.reoriented_triangles = orientation.reoriented_triangles;
   if (!is_first && orientation.reversed == mesh_.reversed) {
@@ -40,7 +43,7 @@ bool AnalysedMesh::look_at(std::span<const Point2<double>> local, std::span<cons
 
 MeshRings AnalysedMesh::with_rings(std::span<const Triangle> triangles, Workers& workers) const& {
   MeshRings copy = mesh_;
-  copy.rings = connectivity_.one_rings(triangles, mesh_.reversed, mesh_.fixed, workers);
+  copy.rings = rings_of(mesh_.fixed, triangles, workers);
   return copy;
 }
 

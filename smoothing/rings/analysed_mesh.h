@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -36,6 +37,11 @@ class AnalysedMesh {
   /// what may slide. True where the orientation is a new one. Complexity: linear.
   bool look_at(std::span<const Point2<double>> local, std::span<const Triangle> triangles, Layers layers,
                Workers& workers);
+
+  /// The rings of the vertices that `held` leaves free, after points have been looked at. Complexity: linear.
+  OneRings rings_of(std::span<const std::uint8_t> held, std::span<const Triangle> triangles, Workers& workers) const {
+    return connectivity_.one_rings(triangles, mesh_.reversed, held, workers);
+  }
 
   /// All that is known, after points have been looked at. Complexity: linear.
   MeshRings with_rings(std::span<const Triangle> triangles, Workers& workers) const&;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cmath>
@@ -104,6 +105,11 @@ class SlidingVertex {
     const double gap = after_.arc - before_.arc;
     double step = arc - own_.arc;
     if (!(std::abs(step) > 0x1p-6 * gap)) {
+      return own_;
+    }
+    // Nor is one that no halving brings between the neighbours: where the energy is all but straight it may be so long
+    // that the way to its end, round after round of a closed line, has none.
+    if (!(std::abs(step) <= 0x1p10 * gap)) {
       return own_;
     }
     for (int tries = 0; tries < most_halvings; ++tries) {

@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/sweeps/host_targets.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -106,6 +108,19 @@ class HostTargets<T>::Finder {
     }
   }
 
+  /// Brings targets of the mesh at `reference` to this one, see HostTargets::moved().
+  void move_from(std::span<const Point2<T>> reference, int exponents) {
+    targets_.scale_by(exponents);
+    for_rings([&](std::int32_t v, const Ring& ring) {
+      share(v) = std::max(share(v), measure_for_mean_ratio(points_[v], ring).largest_share);
+      if (!targets_.edges_.empty()) {
+        const Point2<T> turn = turn_of_edges(v, points_[v], ring, [&](std::int32_t u) { return reference[u]; });
+        targets_.edges_[v] = turned(targets_.edges_[v], turn);
+      }
+    });
+    update_ghosts(targets_.edges_);
+  }
+
   void find_edges() {
     std::vector<EdgeTensor<T>> around(points_.size());
     for_rings([&](std::int32_t v, const Ring& ring) { around[v] = edges_around(points_[v], ring); });
@@ -195,6 +210,25 @@ HostTargets<T>::HostTargets(std::span<const Point2<T>> points, const PackedRings
   if (options.target == TargetShape::input) {
     finder.find_edges();
   }
+}
+
+template <class T>
+void HostTargets<T>::scale_by(int exponents) {
+  for (T& inverse : inverse_areas_) {
+    inverse = inverse_area_in(inverse, exponents);
+  }
+  for (T& share : largest_shares_) {
+    share = largest_share_in(share, exponents);
+  }
+  mesh_.mean_area = std::ldexp(mesh_.mean_area, -2 * exponents);
+}
+
+template <class T>
+HostTargets<T> HostTargets<T>::moved(std::span<const Point2<T>> reference, std::span<const Point2<T>> points,
+                                     int exponents, const PackedRings& rings, Workers& workers, Halo* halo) const {
+  HostTargets moved = *this;
+  Finder(moved, points, rings, workers, halo).move_from(reference, exponents);
+  return moved;
 }
 
 template class HostTargets<float>;

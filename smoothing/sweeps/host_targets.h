@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <span>
@@ -24,6 +25,13 @@ class HostTargets {
   HostTargets(std::span<const Point2<T>> points, const PackedRings& rings, const MeanRatioOptions& options,
               Workers& workers, std::span<const double> inverse_sizes = {}, Halo* halo = nullptr);
 
+  /// These, which are those of `reference`, where the mesh has moved to `points` (both packed, each in its local
+  /// frame): sizes stay, and the shapes are turned as the edges around each vertex are. `exponents`: that of the frame
+  /// of the points above that of the reference. No bound is below what is there. `rings`, `halo`: those that they were
+  /// found with.
+  HostTargets moved(std::span<const Point2<T>> reference, std::span<const Point2<T>> points, int exponents,
+                    const PackedRings& rings, Workers& workers, Halo* halo = nullptr) const;
+
   /// What all vertices have in common.
   const MeanRatioMesh& mesh() const { return mesh_; }
 
@@ -34,11 +42,22 @@ class HostTargets {
  private:
   class Finder;
 
+  /// For a frame whose exponent is larger by so much. MeanRatioScales have no lengths.
+  void scale_by(int exponents);
+
   std::vector<T> inverse_areas_;   ///< one a vertex
   std::vector<T> largest_shares_;  ///< one a free vertex
   MeanRatioScales<T> scales_;
   MeanRatioMesh mesh_{};
   std::vector<EdgeTensor<T>> edges_;  ///< one a vertex, zeros of fixed ones; where shapes are to be kept
+};
+
+/// Another mesh whose sizes and shapes are aimed at.
+template <class T>
+struct ReferenceTargets {
+  std::vector<Point2<T>> points;  ///< packed, in its local frame
+  HostTargets<T> targets;
+  int exponents = 0;  ///< see HostTargets::moved(), of the points at hand
 };
 
 }  // namespace trismooth

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace trismooth {
 
 namespace {
 
-void require_positive(std::span<const double> lengths, std::span<const std::uint8_t> fixed) {
+void require_positive(const RealView& lengths, std::span<const std::uint8_t> fixed) {
   for (std::size_t v = 0; v < fixed.size(); ++v) {
     if ((fixed[v] & hold::isolated) == 0 && (!(lengths[v] > 0) || !std::isfinite(lengths[v]))) {
       throw std::invalid_argument("MeanRatioOptions::target_lengths: that of vertex " + std::to_string(v) +
@@ -25,26 +26,26 @@ void require_positive(std::span<const double> lengths, std::span<const std::uint
 }  // namespace
 
 void require_target_lengths(const SmoothingOptions& options, std::span<const std::uint8_t> fixed) {
-  const std::span<const double> lengths = options.mean_ratio.target_lengths;
-  if (!options.aims_at_sizes()) {
-    return;
-  }
-  if (lengths.size() != fixed.size()) {
+  const RealView& lengths = options.mean_ratio.target_lengths;
+  if (!lengths.empty() && lengths.size() != fixed.size()) {
     throw std::invalid_argument("MeanRatioOptions::target_lengths has " + std::to_string(lengths.size()) +
                                 " entries, expected " + std::to_string(fixed.size()) + " or none");
   }
-  require_positive(lengths, fixed);
+  if (options.aims_at_sizes()) {
+    require_positive(lengths, fixed);
+  }
 }
 
 std::vector<double> inverse_sizes(const SmoothingOptions& options, std::span<const std::uint8_t> fixed,
                                   const Halo* halo) {
-  const std::span<const double> lengths = options.mean_ratio.target_lengths;
+  const RealView& lengths = options.mean_ratio.target_lengths;
+  if (halo == nullptr) {
+    require_target_lengths(options, fixed);
+  }
   if (!options.aims_at_sizes()) {
     return {};
   }
-  if (halo == nullptr) {
-    require_target_lengths(options, fixed);
-  } else {
+  if (halo != nullptr) {
     // (Of a part without a vertex there is one too many, so that it aims at sizes with the others.)
     require_positive(lengths, fixed);
   }

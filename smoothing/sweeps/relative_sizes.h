@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@ class Halo;
 std::vector<double> inverse_sizes(const SmoothingOptions& options, std::span<const std::uint8_t> fixed,
                                   const Halo* halo = nullptr);
 
-/// Throws std::invalid_argument where the options aim at sizes and there is none for each vertex, or one of a vertex of
-/// a triangle is no positive number. Complexity: linear.
+/// Throws std::invalid_argument where the options name sizes and not one for each vertex, and where they aim at sizes
+/// and one of a vertex of a triangle is no positive number. Complexity: linear.
 void require_target_lengths(const SmoothingOptions& options, std::span<const std::uint8_t> fixed);
 
 }  // namespace trismooth

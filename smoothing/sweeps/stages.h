@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,16 @@ namespace trismooth {
 /// belong soonest, the last one a power of it, which sees to the worst triangles. The first lasts ten
 /// sweeps. If more than 7/8 of the vertices still move then, the mesh has far to go: it takes smaller gains for moves
 /// and goes on, ten sweeps at a time, while more than a quarter of the vertices move. So has one with sizes that are
-/// asked for. (Found by experiment: docs/mean_ratio.md.)
+/// asked for. (Found by experiment: docs/mean_ratio.md.) With MeanRatioOptions::steady the last stage is the only
+/// one, and goes on until nothing moves.
 class Stages {
  public:
   Stages(const SmoothingOptions& options, std::int64_t free_count)
       : is_mean_ratio_(options.method == Method::mean_ratio),
         is_form_a_(options.form == Form::swap),
+        is_steady_(options.mean_ratio.steady),
         free_count_(free_count),
-        is_last_(!is_mean_ratio_ || free_count == 0),
+        is_last_(!is_mean_ratio_ || free_count == 0 || is_steady_),
         has_far_to_go_(options.aims_at_sizes()) {}
 
   /// Whether the stage lasts to the stop.
@@ -31,7 +34,7 @@ class Stages {
   /// Sweeps after which next() is to be asked; 0: it lasts to the stop.
   std::int64_t sweeps() const { return is_last_ ? 0 : sweeps_of_first; }
   /// Where no more vertices move than so many the stage is over. Other methods go on until nothing moves.
-  std::int64_t few_moves() const { return is_mean_ratio_ && is_last_ ? free_count_ / 64 : 0; }
+  std::int64_t few_moves() const { return is_mean_ratio_ && is_last_ && !is_steady_ ? free_count_ / 64 : 0; }
   /// What the mean-ratio method does now.
   template <class T>
   MeanRatioStep<T> step() const {
@@ -39,7 +42,7 @@ class Stages {
     // they would go too far.
     const double relaxation = is_form_a_ ? 0.7 : (is_last_ ? 1.5 : 1.8);
     const double least_gain = has_far_to_go_ ? 1e-4 : 3e-4;
-    return {static_cast<T>(relaxation), static_cast<T>(least_gain), is_last_};
+    return {static_cast<T>(relaxation), static_cast<T>(least_gain), is_last_, is_steady_};
   }
   /// The next stage, or the same once more. `moved`: vertices in the last sweep; `settled`: that sweep ended the stage,
   /// see settled_in_sweep(). Only where this one is not the last.
@@ -55,6 +58,7 @@ class Stages {
 
   bool is_mean_ratio_;
   bool is_form_a_;
+  bool is_steady_;
   std::int64_t free_count_;
   bool is_last_;
   bool has_far_to_go_;

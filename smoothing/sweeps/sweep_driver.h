@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <vector>
 
 #include "trismooth/base/machine/bulk_memory.h"
-#include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/halo/halo.h"
 #include "trismooth/smoothing/methods/methods.h"
@@ -18,6 +18,7 @@
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 #include "trismooth/smoothing/sweeps/host_targets.h"
 #include "trismooth/smoothing/sweeps/mean_ratio_lanes.h"
+#include "trismooth/smoothing/sweeps/proposed_update.h"
 #include "trismooth/smoothing/sweeps/slide_pass.h"
 #include "trismooth/smoothing/sweeps/stop_rule.h"
 #include "trismooth/smoothing/sweeps/sweep_control.h"
@@ -39,10 +40,12 @@ class SweepDriver {
  public:
   /// `inverse_sizes`: see HostTargets. `slide`: what slides, where slides_behind() says so; null: nothing. `halo`: of a
   /// part of a mesh, whose other parts run sweeps at the same time; null: it is the whole. `offload`: who makes the
-  /// sweeps of a part, in place of this thread and its workers; null: nobody.
+  /// sweeps of a part, in place of this thread and its workers; null: nobody. `proposed`: the method of the caller's
+  /// own; null: that of the options. `reference`: the mesh that Method::mean_ratio aims at; null: that of the points.
   SweepDriver(const PackedRings& rings, const SmoothingOptions& options, Workers& workers,
               std::span<const double> inverse_sizes = {}, SlidePass<T>* slide = nullptr, Halo* halo = nullptr,
-              SweepOffload<T>* offload = nullptr)
+              SweepOffload<T>* offload = nullptr, const ProposedUpdate<T>* proposed = nullptr,
+              const ReferenceTargets<T>* reference = nullptr)
       : rings_(rings),
         view_(rings.view()),
         options_(options),
@@ -50,7 +53,9 @@ class SweepDriver {
         inverse_sizes_(inverse_sizes),
         slide_(slide),
         halo_(halo),
-        offload_(offload) {}
+        offload_(offload),
+        proposed_(proposed),
+        reference_(reference) {}
 
   /// Smooths `points` (packed, local frame) and fills the counters, the history and the stop reason of `result`.
   /// `fixed_quotient` is the smallest shape quotient among the triangles without a free vertex.
@@ -60,7 +65,6 @@ class SweepDriver {
   static constexpr std::int64_t grain = 1024;
 
   void run_stages(BulkVector<Point2<T>>& points, double fixed_quotient, SmoothingResult& result) {
-    const Stopwatch watch;
     if (options_.form == Form::swap && offload_ == nullptr) {
       other_points_ = points;
     }
@@ -68,30 +72,44 @@ class SweepDriver {
       result.stop_reason = StopReason::quality_target;
       return;
     }
-    const HostTargets<T> targets =
-        options_.method == Method::mean_ratio
-            ? HostTargets<T>(points, rings_, options_.mean_ratio, workers_, inverse_sizes_, halo_)
-            : HostTargets<T>();
+    // (Parts say it together, behind this.)
+    if (const auto end = halo_ == nullptr ? SweepControl::end_before_sweeps(options_) : std::nullopt) {
+      result.stop_reason = stop_reason(*end);
+      return;
+    }
+    const HostTargets<T> targets = targets_from(points);
     if (slide_ != nullptr && options_.method == Method::mean_ratio) {
       slide_->aim(points, targets.view(), targets.mesh(), !inverse_sizes_.empty());
+    }
+    SweepControl control(options_, halo_ == nullptr ? rings_.free_count() : halo_->part().free_vertices, result, halo_);
+    if (control.is_over()) {
+      return;
     }
     if (offload_ != nullptr) {
       offload_->begin(points, targets.view());
     }
-    SweepControl control(options_, halo_ == nullptr ? rings_.free_count() : halo_->part().free_vertices, result, halo_);
     bool is_over = false;
     while (!is_over) {
       const MethodInUse<T> in_use{options_.method, targets.view(), control.stages().template step<T>()};
-      is_over = run_stage(in_use, points, control, fixed_quotient, watch);
+      is_over = run_stage(in_use, points, control, fixed_quotient);
     }
     if (offload_ != nullptr) {
       offload_->end(points);
     }
   }
 
+  HostTargets<T> targets_from(std::span<const Point2<T>> points) const {
+    if (options_.method != Method::mean_ratio) {
+      return {};
+    }
+    return reference_ != nullptr
+               ? reference_->targets.moved(reference_->points, points, reference_->exponents, rings_, workers_, halo_)
+               : HostTargets<T>(points, rings_, options_.mean_ratio, workers_, inverse_sizes_, halo_);
+  }
+
   /// Sweeps to the end of the stage; true where it is that of the run.
   bool run_stage(const MethodInUse<T>& in_use, BulkVector<Point2<T>>& points, SweepControl& control,
-                 double fixed_quotient, const Stopwatch& watch) {
+                 double fixed_quotient) {
     const bool swaps = options_.form == Form::swap;
     if (offload_ != nullptr) {
       offload_->begin_stage();
@@ -107,9 +125,8 @@ class SweepDriver {
         points.swap(other_points_);
         marked_.swap(other_marked_);
       }
-      double seconds = 0;
+      double seconds = control.seconds();
       if (halo_ != nullptr) {
-        seconds = watch.seconds();
         join_parts(tally, seconds);
       }
       if (slide_ != nullptr && control.slides_behind(1, control.settles(tally))) {
@@ -121,7 +138,7 @@ class SweepDriver {
         shape =
             min_shape(offload_ != nullptr ? offload_->smallest_quotient() : smallest_quotient(points), fixed_quotient);
       }
-      if (control.add(tally, shape, halo_ == nullptr ? watch.seconds() : seconds)) {
+      if (control.add(tally, shape, halo_ == nullptr ? control.seconds() : seconds)) {
         return true;
       }
     } while (!control.begins_stage());
@@ -136,10 +153,11 @@ class SweepDriver {
       const std::int32_t first = rings_.batches[batch];
       workers_.for_blocks(rings_.batches[batch + 1] - first, grain, [&](std::int64_t begin, std::int64_t end) {
         SweepTally<T> tally;
-        visit_method(in_use, [&](const auto& method) {
+        const auto update = [&](const auto& method) {
           update_block(method, first + static_cast<std::int32_t>(begin), first + static_cast<std::int32_t>(end), from,
                        to, marked, marked_next, tally);
-        });
+        };
+        proposed_ != nullptr ? update(*proposed_) : visit_method(in_use, update);
         const std::lock_guard lock(joining);
         total.join(tally);
       });
@@ -255,6 +273,8 @@ class SweepDriver {
   SlidePass<T>* slide_;
   Halo* halo_;
   SweepOffload<T>* offload_;
+  const ProposedUpdate<T>* proposed_;
+  const ReferenceTargets<T>* reference_;
   BulkVector<Point2<T>> other_points_;
   std::vector<std::uint8_t> marked_;  ///< one a vertex
   std::vector<std::uint8_t> other_marked_;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/sweeps/gathered_ring.h"
 #include "trismooth/smoothing/sweeps/lane_update.h"
+#include "trismooth/smoothing/sweeps/proposed_update.h"
 
 namespace trismooth {
 
@@ -50,6 +52,15 @@ class SideBySide {
   LaneUpdate<T> update_ = lane_update<T>(Method::method, instruction_set());
 };
 
+/// Of the caller's own method a vertex at a time.
+template <class T>
+class SideBySide<T, ProposedUpdate<T>> {
+ public:
+  SideBySide(const ProposedUpdate<T>& /*method*/, const RingView& /*rings*/, std::span<const Point2<T>> /*points*/) {}
+
+  static constexpr bool holds(int /*ring_size*/) { return false; }
+};
+
 /// Visits of a method to vertices, many of them side by side. What lanes cannot tell is asked for alone.
 template <class T, class Method>
 class VertexVisits {
@@ -67,10 +78,12 @@ class VertexVisits {
       }
       return;
     }
-    while (!vertices.empty()) {
-      const int count = static_cast<int>(std::min<std::size_t>(LaneMoves<T>::lanes, vertices.size()));
-      visit_in_lanes(vertices, count, ring_size, settle);
-      vertices = vertices.subspan(static_cast<std::size_t>(count));
+    if constexpr (requires { side_by_side_.moves(vertices, 1, ring_size); }) {
+      while (!vertices.empty()) {
+        const int count = static_cast<int>(std::min<std::size_t>(LaneMoves<T>::lanes, vertices.size()));
+        visit_in_lanes(vertices, count, ring_size, settle);
+        vertices = vertices.subspan(static_cast<std::size_t>(count));
+      }
     }
   }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/untangle/coarse_to_fine.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/untangle/ring_kernel.h"
@@ -45,6 +47,7 @@ class CollapsibleRings {
     for (std::size_t largest_ring = 7; largest_ring <= 24 && alive_ > target;) {
       const std::int32_t before = alive_;
       ++round_number_;
+      CallLimit::look();
       for (std::int32_t v = 0; v < static_cast<std::int32_t>(rings_.size()) && alive_ > target; ++v) {
         if (!rings_[v].empty() && round_[v] != round_number_) {
           collapse(v, largest_ring);
@@ -264,6 +267,7 @@ void untangle_coarse_to_fine(const Patch& patch, std::span<Point2<double>> point
   std::vector<Point2<double>> around;
   std::vector<Point2<double>> scratch;
   while (rings.can_undo()) {
+    CallLimit::look();
     for (std::int64_t until = 2 * std::int64_t{rings.alive()}; rings.can_undo() && rings.alive() < until;) {
       const auto& [v, ring] = rings.undo();
       around.clear();
@@ -274,6 +278,7 @@ void untangle_coarse_to_fine(const Patch& patch, std::span<Point2<double>> point
       points[v] = centre ? *centre : points[ring.front()];
     }
     for (int sweep = 0; sweep < smart_sweeps; ++sweep) {
+      CallLimit::look();
       rings.for_each_ring(
           [&](std::int32_t v, std::span<const std::int32_t> ring) { move_to_mean_if_better(v, ring, points); });
     }

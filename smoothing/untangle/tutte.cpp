@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/untangle/tutte.h"
 
 #include <cmath>
@@ -5,7 +6,8 @@
 #include <vector>
 
 #include "trismooth/base/machine/ordered_sum.h"
-#include "trismooth/smoothing/untangle/conjugate_gradients.h"
+#include "trismooth/smoothing/systems/conjugate_gradients.h"
+#include "trismooth/smoothing/systems/host_rows.h"
 
 namespace trismooth {
 
@@ -13,7 +15,7 @@ void tutte(const Patch& patch, std::span<Point2<double>> points, double toleranc
   const auto free = points.first(static_cast<std::size_t>(patch.free_count));
   const auto degree = [&](std::int32_t v) { return static_cast<double>(patch.offsets[v + 1] - patch.offsets[v]); };
   // A row of the matrix times x, where held vertices are 0.
-  const auto apply = [&](std::span<const Point2<double>> x, std::int32_t v) {
+  const auto apply = [&](const Point2<double>* x, std::int32_t v) {
     Point2<double> sum{degree(v) * x[v].x, degree(v) * x[v].y};
     for (std::int32_t k = patch.offsets[v]; k < patch.offsets[v + 1]; ++k) {
       const std::int32_t neighbour = patch.neighbours[k];
@@ -55,7 +57,9 @@ void tutte(const Patch& patch, std::span<Point2<double>> points, double toleranc
       },
       workers));
   constexpr int most_steps = 20000;
-  conjugate_gradients(apply, precondition, free, residual, reference, tolerance, most_steps, workers);
+  HostRows rows(workers);
+  conjugate_gradients(apply, precondition, patch.free_count, free.data(), residual.data(), reference, tolerance,
+                      most_steps, rows);
 }
 
 }  // namespace trismooth

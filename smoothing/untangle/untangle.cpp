@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/untangle/untangle.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/quality/element.h"
@@ -78,6 +80,19 @@ class Untangler {
 
   UntangleOutcome run() {
     outcome_.inverted_before = faults_.inverted;
+    try {
+      mend();
+    } catch (const CallEnded&) {
+      // What is done by then is kept: between two parts the points are better than they were, if they have changed.
+      CallLimit::lift_current();
+      find_faulty();
+    }
+    outcome_.inverted_after = faults_.inverted;
+    return outcome_;
+  }
+
+ private:
+  void mend() {
     const auto move_to_means = [&](std::int32_t v) { move_to_mean(v); };
     const auto move_to_kernels = [&](std::int32_t v) { move_to_kernel(v); };
     move_corners(move_to_means, 12, outcome_.by_averages);
@@ -100,11 +115,8 @@ class Untangler {
     if (faults_.inverted > 0 && (has_helped || are_all || rings_.size() <= large_mesh)) {
       solve_parts(all_rings, Effort::all);
     }
-    outcome_.inverted_after = faults_.inverted;
-    return outcome_;
   }
 
- private:
   /// What a part is worth.
   enum class Effort : std::uint8_t { embedding, refinement, energy, all };
 
@@ -243,7 +255,7 @@ class Untangler {
     std::vector<Triangle> best = faulty_;
     Faults fewest = faults_;
     int passes_in_vain = 0;
-    for (int pass = 0; pass < most_passes && faults_.any() && passes_in_vain < 2; ++pass) {
+    for (int pass = 0; pass < most_passes && faults_.any() && passes_in_vain < 2 && !CallLimit::is_over(); ++pass) {
       const std::vector<std::int32_t> moved = corners();
       for (const std::int32_t v : moved) {
         move(v);
@@ -287,7 +299,7 @@ class Untangler {
     // Parts that do not hang together are solved apart: listed_ is 1 for who waits for a part.
     std::vector<std::int32_t> part;
     for (const std::int32_t seed : near) {
-      if (listed_[seed] != 1) {
+      if (listed_[seed] != 1 || CallLimit::is_over()) {
         continue;
       }
       part.assign(1, seed);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/untangle/untangle_mesh.h"
 
 #include <algorithm>
@@ -6,8 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/untangle/untangle.h"
 
@@ -243,7 +246,7 @@ MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> tr
   const std::vector<Point2<double>> input(points.begin(), points.end());
   const UntangleOutcome outcome = untangle(rings, points, workers);
   MeshUntangling result{outcome.inverted_before, outcome.inverted_after, {}};
-  if (outcome.parts_of_no_area > 0) {
+  if (outcome.parts_of_no_area > 0 && !CallLimit::is_over()) {
     result.turned = turn_over(rings, triangles, reversed, input, points, workers);
     result.inverted_after = inverted_triangles(rings, triangles, result.turned, points, workers);
   }

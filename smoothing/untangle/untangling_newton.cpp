@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/untangle/untangling_newton.h"
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 
 #include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/quality/element.h"
-#include "trismooth/smoothing/untangle/conjugate_gradients.h"
+#include "trismooth/smoothing/systems/conjugate_gradients.h"
+#include "trismooth/smoothing/systems/host_rows.h"
 #include "trismooth/smoothing/untangle/regularised_energy.h"
 
 namespace trismooth {
@@ -208,7 +210,7 @@ class RegularisedMinimiser {
 
   /// The Newton step, into step_; false where there is none.
   bool find_step() {
-    const auto apply = [&](std::span<const Point2<double>> x, std::int32_t v) {
+    const auto apply = [&](const Point2<double>* x, std::int32_t v) {
       const BlockMatrix::Diagonal& d = matrix_.diagonal[v];
       Point2<double> sum{d.xx * x[v].x + d.xy * x[v].y, d.xy * x[v].x + d.yy * x[v].y};
       for (std::int32_t k = patch_.offsets[v]; k < patch_.offsets[v + 1]; ++k) {
@@ -242,7 +244,9 @@ class RegularisedMinimiser {
     }
     constexpr double tolerance = 0.1;  // a rough step at little cost beats an exact one
     constexpr int most_steps = 2000;
-    conjugate_gradients(apply, precondition, step_, residual_, reference, tolerance, most_steps, workers_);
+    HostRows rows(workers_);
+    conjugate_gradients(apply, precondition, patch_.free_count, step_.data(), residual_.data(), reference, tolerance,
+                        most_steps, rows);
     return true;
   }
 

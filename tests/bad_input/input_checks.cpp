@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "input_checks.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@
 #include "memory_peak.h"
 #include "support/one_file_codec.h"
 #include "support/sanitized.h"
+#include "support/share_of_cases.h"
 
 using trismooth::CellList;
 using trismooth::DataArray;
@@ -32,6 +34,7 @@ namespace {
 class Listener : public vtkOutputWindow {
  public:
   static Listener* New();
+  // NOLINTNEXTLINE(bugprone-derived-method-shadowing-base-method): VTK's macro is meant to
   vtkTypeMacro(Listener, vtkOutputWindow) void DisplayText(const char* text) override { heard += text; }
   std::string heard;
 };
@@ -85,11 +88,11 @@ bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
 }
 
 std::size_t stride_of(const accepted_files::AcceptedFile& file) {
-  if (!is_sanitized) {
+  if (!is_sanitized && per_cent_of_cases() >= 100) {
     return 1;
   }
   // Odd ones, which meet numbers at all their bytes; rows of Medit's may be three numbers.
-  if (!is_vtk_xml(file)) {
+  if (!is_sanitized || !is_vtk_xml(file)) {
     return file.name.starts_with("medit") ? 5 : 3;
   }
   return file.name.find("lzma") == std::string::npos ? 13 : 61;
@@ -123,7 +126,7 @@ Outcome read(const accepted_files::AcceptedFile& file) {
   return read(file, file.bytes);
 }
 
-Outcome read_and_write(const accepted_files::AcceptedFile& file, std::string bytes) {
+Outcome read_and_write(const accepted_files::AcceptedFile& file, const std::string& bytes) {
   Outcome outcome = read(file, bytes);
   if (outcome.document && outcome.fault.empty()) {
     try {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,7 @@ Outcome read(const accepted_files::AcceptedFile& file);
 Outcome read(const accepted_files::AcceptedFile& file, const std::string& bytes);
 
 /// The same, and the document must be writable to its own format.
-Outcome read_and_write(const accepted_files::AcceptedFile& file, std::string bytes);
+Outcome read_and_write(const accepted_files::AcceptedFile& file, const std::string& bytes);
 
 /// Which promise of mesh_document.h the document breaks; empty where it keeps all.
 std::string broken_promise(const trismooth::MeshDocument& document);
@@ -36,8 +37,8 @@ std::string difference(const trismooth::MeshDocument& a, const trismooth::MeshDo
 /// The bytes that a document gives when it is written back to its own format.
 std::string written_back(const trismooth::MeshDocument& document);
 
-/// Tests that visit every place of a file visit every n-th with sanitizers, which read some ten times slower, of the
-/// files that take longest.
+/// Tests that visit every place of a file visit every n-th where not all cases are asked for (share_of_cases.h), and
+/// with sanitizers, which read some ten times slower, still fewer of the files that take longest.
 std::size_t stride_of(const accepted_files::AcceptedFile& file);
 
 bool is_vtk_xml(const accepted_files::AcceptedFile& file);

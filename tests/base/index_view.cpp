@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/index_view.h"
 
 #include <array>
@@ -103,12 +104,13 @@ TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
     CHECK(refusal([&] { smooth(trismooth::xy_points(xy), triangles); }) == expected);
   };
   refuses(std::vector<std::int64_t>{0, 1, 2, 0, 2, (std::int64_t{1} << 32) + 3},
-          "mesh: triangle 1 names vertex 4294967299 of 6");
+          "mesh: triangle 1 names vertex 4294967299; vertices are numbered from 0 to 5");
   refuses(std::vector<std::uint64_t>{0, 1, ~std::uint64_t{0}},
-          "mesh: triangle 0 names vertex 18446744073709551615 of 6");
-  refuses(std::vector<std::uint32_t>{0, 1, ~std::uint32_t{0}}, "mesh: triangle 0 names vertex 4294967295 of 6");
-  refuses(std::vector<std::int64_t>{0, 1, -1}, "mesh: triangle 0 names vertex -1 of 6");
-  refuses(std::vector<std::size_t>{0, 1, 6}, "mesh: triangle 0 names vertex 6 of 6");
+          "mesh: triangle 0 names vertex 18446744073709551615; vertices are numbered from 0 to 5");
+  refuses(std::vector<std::uint32_t>{0, 1, ~std::uint32_t{0}},
+          "mesh: triangle 0 names vertex 4294967295; vertices are numbered from 0 to 5");
+  refuses(std::vector<std::int64_t>{0, 1, -1}, "mesh: triangle 0 names vertex -1; vertices are numbered from 0 to 5");
+  refuses(std::vector<std::size_t>{0, 1, 6}, "mesh: triangle 0 names vertex 6; vertices are numbered from 0 to 5");
   refuses(std::vector<std::size_t>{0, 1, 2, 3}, "argument: triangles has 4 entries, not three a triangle");
   CHECK(refusal([&] {
           const Eigen::MatrixXi quads = Eigen::MatrixXi::Zero(2, 4);

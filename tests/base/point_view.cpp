@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/point_view.h"
 
 #include <array>
@@ -42,8 +43,7 @@ static_assert(!Smoothable<std::span<double>>);
 static_assert(!Smoothable<double (&)[12]>);
 static_assert(!Smoothable<Eigen::VectorXd&>);
 static_assert(!Smoothable<Eigen::Map<Eigen::VectorXd>>);
-static_assert(!Smoothable<Eigen::MatrixXd&>);
-static_assert(!Smoothable<Eigen::Matrix3d&>);
+// (Matrices whose type does not say whether rows or columns are points: see ../refuse_mesh_types.py.)
 // Numbers that are none of ours, that cannot be written, or that are gone before anybody sees the result.
 static_assert(!Smoothable<std::vector<std::array<int, 2>>&>);
 static_assert(!Smoothable<std::vector<std::array<double, 4>>&>);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/base/triangle_topology.h"
 
 #include <algorithm>
@@ -281,9 +282,9 @@ TEST_CASE("triangles with an index out of range or a vertex twice are refused, a
     mesh.triangles.push_back(triangle);
     return message_of<MeshError>([&] { static_cast<void>(connect(mesh)); });
   };
-  CHECK(with({0, 1, 5}) == "triangle 4 names vertex 5 of 5");
-  CHECK(with({-1, 1, 2}) == "triangle 4 names vertex -1 of 5");
-  CHECK(with({1, 2147483647, 2}) == "triangle 4 names vertex 2147483647 of 5");
+  CHECK(with({0, 1, 5}) == "triangle 4 names vertex 5; vertices are numbered from 0 to 4");
+  CHECK(with({-1, 1, 2}) == "triangle 4 names vertex -1; vertices are numbered from 0 to 4");
+  CHECK(with({1, 2147483647, 2}) == "triangle 4 names vertex 2147483647; vertices are numbered from 0 to 4");
   CHECK(with({1, 1, 2}) == "triangle 4 repeats a vertex");
   CHECK(with({1, 2, 1}) == "triangle 4 repeats a vertex");
   CHECK(with({2, 1, 1}) == "triangle 4 repeats a vertex");

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The CUDA backend against the CPU's, in all that results say: bits, stop reasons, histories, what the guard took
 // back.
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +26,7 @@
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/keep_never_worse.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -195,6 +198,33 @@ TEST_CASE("every reason to stop is the CPU's, at the same sweep") {
         return record.sweep == last ? Progress::stop : Progress::proceed;
       };
       require_cpu_results(mesh, options);
+    }
+  }
+}
+
+TEST_CASE("whenever a call is over before its end the mesh is nowhere worse, and its plan as if it had not been") {
+  const Mesh mesh = test_meshes::shuffled(test_meshes::jittered_grid(400, 400, 0.45, 6), 3);
+  const std::vector<double> before = mesh.xy();
+  for (const Method method : {Method::smart, Method::mean_ratio}) {
+    SmoothingOptions options = on_cuda(Execution::resident);
+    options.method = method;
+    options.tolerance = 0;
+    options.max_sweeps = 200;
+    const Run whole = run(mesh, options);
+    auto end = std::chrono::steady_clock::time_point::max();
+    options.cancel = [&end] { return std::chrono::steady_clock::now() >= end; };
+    SmoothingPlan made = plan(mesh.vertex_count(), mesh.indices(), options);
+    for (const int microseconds : {0, 300, 1000, 3000, 10000, 30000}) {
+      CAPTURE(method, microseconds);
+      end = std::chrono::steady_clock::now() + std::chrono::microseconds(microseconds);
+      std::vector<double> xy = mesh.xy();
+      const SmoothingResult result = made.smooth(xy);
+      CHECK((result.stop_reason == StopReason::cancelled) == (result.sweeps < whole.result.sweeps));
+      CHECK(keep_never_worse(xy_points(before), xy_points(xy), mesh.indices()).reverted.empty());
+      end = std::chrono::steady_clock::time_point::max();
+      xy = mesh.xy();
+      made.smooth(xy);
+      CHECK(xy == whole.xy);
     }
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the mean-ratio method aims at is the host's, bit for bit, whatever kind of rings it is found from.
 
 #include <cstddef>
@@ -144,7 +145,8 @@ void check_aims(const Mesh& mesh, SmoothingOptions options, bool has_sizes) {
   }
   // Twice: what it found before must not be added to.
   for (int times = 0; times < 2; ++times) {
-    std::visit([&](const auto& kind) { device.find(kind.view(), cuda::PointArray<T>{memory.data()}); }, packed.rings);
+    std::visit([&](const auto& kind) { device.find(kind.view(), cuda::PointArray<T>{memory.data()}, nullptr); },
+               packed.rings);
     require_same(by_input(device.view(), input_index, packed.order.free_count(),
                           [](const auto* from, std::size_t count) { return copied(from, count); }),
                  expected);

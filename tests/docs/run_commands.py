@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs what the documentation shows, and holds what it says to the program and the source tree.
 
     run_commands.py PROGRAM COMPILER BUILD_INCLUDE [--system-include FOLDER]... [--without PART]...
@@ -32,7 +33,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 LINKED_PAGES = PAGES + [ROOT / name for name in ("CONTRIBUTING.md", "SECURITY.md", "examples/README.md",
                                              "examples/data/README.md")]
-COMMANDS = ("smooth", "quality", "generate", "bench", "info")
+COMMANDS = ("smooth", "deform", "quality", "generate", "bench", "info")
 # Options of other programs that the pages name.
 FOREIGN_OPTIONS = {"--prefix", "--preset", "--build", "--install", "--target", "--cflags", "--libs", "--check",
                    "--sanitize", "--tests", "--tools", "--package", "--optimesh-python", "--files", "--cuda",

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Vertices that are held by numbers: the user's, which the file itself gives them, and markers."""
 
 import os
@@ -169,6 +170,20 @@ class Labels(tool.ToolTest):
                     members = {f"{array}=6": area | {8}, f"{array}=4": set(range(9))}
                     self.assert_sets_hold(name, members, *members)
         self.assert_sets_hold("in.msh", {"gmsh:physical=coil": area}, "gmsh:physical=coil")
+        said = self.run_tool("smooth", "in.msh", "out.msh", "--fixed-set", "coil", expect=WRONG_USAGE).err
+        self.assertIn("no point set 'coil' to hold; did you mean 'gmsh:physical=coil'?", said)
+
+    def test_a_material_of_obj_is_named_as_in_the_file(self):
+        lines = "".join(f"v {x} {y} {z}\n" for x, y, z in self.grid.points)
+        cells = [cell for _, cell in self.grid.cells]
+        steel = {v for cell in cells[:20] for v in cell}
+        for c, cell in enumerate(cells):
+            lines += {0: "usemtl steel\n", 20: "usemtl air\n"}.get(c, "")
+            lines += "f " + " ".join(str(v + 1) for v in cell) + "\n"
+        self.write("in.obj", lines)
+        self.assert_sets_hold("in.obj", {"material=steel": steel}, "material=steel")
+        said = self.run_tool("smooth", "in.obj", "out.vtu").err
+        self.assertIn("those of material are not written", said)
 
     def test_a_group_that_overlaps_others_has_all_of_its_cells(self):
         """UNV: each element has one number in the array, that of the smallest group."""
@@ -196,7 +211,7 @@ class Labels(tool.ToolTest):
         self.assertIn("'medit:ref' has: 0, 1, 2, 3, ", said)
         self.assertRegex(said, "18, 19 and more\n")
         for name in ("material=7", "medit"):
-            self.assertRegex(refuse(name), f"no point set '{name}' to hold; it has: .*ARRAY=NUMBER.*: medit:ref\n")
+            self.assertRegex(refuse(name), f"no point set '{name}' to hold.*; it has: .*ARRAY=NUMBER.*: medit:ref\n")
         self.assertFalse(os.path.exists(self.path("out.mesh")))
 
     def test_global_ids_are_labels(self):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Targets that are no ordinary file, or do not stay one; and standard streams that are closed, full or gone."""
 
 import itertools
@@ -90,6 +91,16 @@ class Refusals(OutputsTest):
                     self.assertRegex(outcome.err, f"^trismooth: error: --report report.json: .*same file as {other}\n$")
                     self.assertEqual(self.read(other), before)
                     os.remove(self.path("report.json"))
+
+    def test_a_report_is_given_once(self):
+        outcome = self.run_tool("smooth", "plate.off", "out.off", "--report", "a.json", "--report", "./a.json",
+                                expect=WRONG_USAGE)
+        self.assertIn("--report ./a.json: is given twice", outcome.err)
+        self.assertFalse(os.path.exists(self.path("out.off")))
+
+    def test_options_for_ranks_without_ranks_are_told(self):
+        said = self.run_tool("smooth", "plate.off", "out.off", "--single", "--gather").err
+        self.assertIn("warning: --single, --gather has no effect", said)
 
     def test_few_files_may_be_open(self):
         self.skip_if_instrumented()
@@ -234,17 +245,18 @@ class StandardStreams(OutputsTest):
             self.assert_whole()
 
     def test_a_reader_of_the_standard_output_that_goes_away(self):
-        for _ in range(10):
-            process = self.start("smooth", "plate.vtu", "out.vtu", "--report", "r.json")
-            process.stdout.close()
-            error = process.stderr.read()
-            process.stderr.close()
-            # As with any program in front of `head`: ended by the signal, without a word, its files whole.
-            self.assertEqual(process.wait(timeout=120), -13)
-            self.assertEqual(error, "")
-            self.assert_whole()
-            json.loads(self.read("r.json"))
-            os.remove(self.path("r.json"))
+        # It has gone before the program begins, or a quick program would be done before that.
+        reader, writer = os.pipe()
+        os.close(reader)
+        process = self.start("smooth", "plate.vtu", "out.vtu", "--report", "r.json", stdout=writer)
+        os.close(writer)
+        error = process.stderr.read()
+        process.stderr.close()
+        # As with any program in front of `head`: ended by the signal, without a word, its files whole.
+        self.assertEqual(process.wait(timeout=120), -13)
+        self.assertEqual(error, "")
+        self.assert_whole()
+        json.loads(self.read("r.json"))
 
     def test_messages_do_not_go_into_files_where_standard_streams_are_closed(self):
         for closed in itertools.chain.from_iterable(itertools.combinations((0, 1, 2), n) for n in (1, 2, 3)):

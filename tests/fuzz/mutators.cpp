@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "mutators.h"
 
 #include <array>
@@ -67,7 +68,7 @@ std::string neighbour_of(std::string_view token, HashedChoices& choices) {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
   if (error != std::errc() || end != token.data() + token.size() ||
-      number == std::numeric_limits<std::int64_t>::max()) {
+      number == std::numeric_limits<std::int64_t>::max() || number == std::numeric_limits<std::int64_t>::min()) {
     return std::string(token) + std::string(1, digits[choices.below(10)]);
   }
   return std::to_string(choices.flag() ? number + 1 : number - 1);

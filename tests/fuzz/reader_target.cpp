@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -9,12 +10,12 @@
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
-#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
 #include "trismooth/smoothing/smooth.h"
+#include "trismooth/space/plane_smoothing.h"
 
 #include "broken.h"
 #include "choices.h"

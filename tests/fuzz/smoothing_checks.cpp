@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "smoothing_checks.h"
 
 #include <algorithm>
@@ -209,6 +210,14 @@ void require_never_worse(const Smoothing& smoothing) {
     free += is_fixed ? 0 : 1;
     moved += same_bits(before[v], after[v]) ? 0 : 1;
     require(!is_fixed || same_bits(before[v], after[v]), "fixed vertex " + std::to_string(v) + " moved");
+  }
+  if (result.inverted < 0) {
+    // The time was up before anything was found out.
+    require(smoothing.options.time_limit_seconds < std::numeric_limits<double>::infinity(), "has not looked at all");
+    require(result.stop_reason == trismooth::StopReason::time_limit && result.sweeps == 0 && moved == 0 &&
+                result.moved_vertices == 0 && result.reverted.empty(),
+            "says more than it has found out");
+    return;
   }
   require(result.free_vertices == free,
           "says " + std::to_string(result.free_vertices) + " vertices are free, found " + std::to_string(free));

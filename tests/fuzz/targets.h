@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,7 @@ struct Target {
 /// Longer inputs are left alone.
 inline constexpr std::size_t most_input_bytes = 16384;
 
-/// One for each format, and the one of flat arrays. CMake builds a fuzzer of each: see CMakeLists.txt.
+/// One for each format, and the one of flat arrays.
 std::span<const Target> all_targets();
 
 /// Throws std::invalid_argument for a name that no target has.

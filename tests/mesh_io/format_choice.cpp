@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/format_choice.h"
 
 #include <algorithm>
@@ -191,7 +192,8 @@ TEST_CASE("an unknown extension is told with all that are known, and the one tha
   CHECK(says(refusal("mesh", "?"), "mesh: has no extension that names a format"));
   CHECK(says(trismooth::titled_format_list(), "OFF (.off), OBJ (.obj), PLY (.ply), STL (.stl), legacy VTK (.vtk)"));
   const std::string message = message_of<WriteError>([] { output_format("out.foo"); });
-  CHECK(message == "out.foo: the extension '.foo' names no format; known are " + trismooth::titled_format_list());
+  CHECK(message == "out.foo: the extension '.foo' names no format; --format NAME tells it; known are " +
+                       trismooth::titled_format_list());
 }
 
 TEST_CASE("formats that are known and not read are named, with a way to a file that is") {

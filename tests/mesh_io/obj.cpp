@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -96,6 +97,10 @@ TEST_CASE("OBJ: materials and groups number the cells") {
   const MeshDocument document = obj.read(text);
   CHECK(numbers_of(document, "material") == std::vector<std::int32_t>{-1, 0, 0, 1, 0, 0, 0});
   CHECK(numbers_of(document, "group") == std::vector<std::int32_t>{-1, -1, 0, 0, 0, 1, 0});
+  const auto names = [&document](std::size_t array) { return document.cell_arrays.at(array).description->value_names; };
+  CHECK(names(0) == std::vector<ValueName>{
+                        {0, 0, "Material #25"}, {0, 1, "Material #25"}, {0, 2, "Material #25"}, {1, 2, "other # 1"}});
+  CHECK(names(1) == std::vector<ValueName>{{0, 0, "a b"}, {0, 1, "a b"}, {0, 2, "a b"}});
   CHECK(obj.written(document) == text);
   CHECK(numbers_of(obj.read(house + "usemtl late\n"), "material") == std::vector<std::int32_t>(7, -1));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reading and writing back: VTK's own writer makes the files, VTK's own reader judges the result.
 
 #include <array>
@@ -23,6 +24,7 @@ namespace vtk_xml_test {
 
 using trismooth::MeshDocument;
 using trismooth::ScalarType;
+using trismooth::VtkXmlCompressor;
 using trismooth::VtkXmlEncoding;
 using trismooth::VtkXmlKind;
 using trismooth::VtkXmlMode;
@@ -69,6 +71,10 @@ TEST_CASE("a VTU or VTP file written back unchanged holds the same in the same e
   const auto kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
   const auto point_type = GENERATE(ScalarType::float32, ScalarType::float64);
   for (const VtkXmlEncoding& encoding : all_encodings()) {
+    if (encoding.compressor == VtkXmlCompressor::lzma &&
+        (kind == VtkXmlKind::poly_data) != (point_type == ScalarType::float32)) {
+      continue;  // takes its time
+    }
     CAPTURE(to_string(encoding), kind, point_type);
     const auto special = encoding.mode == VtkXmlMode::ascii ? SpecialValues::none : SpecialValues::all;
     const auto sample = make_sample(kind, point_type, special);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Malformed VTU and VTP files: each is refused with a message or read consistently; none crashes, and nothing of VTK
 // reaches standard error.
 
@@ -295,8 +296,8 @@ TEST_CASE("VTU and VTP are written in the same bytes by any number of threads") 
   const Silence silence;
   const VtkXmlKind kind = GENERATE(VtkXmlKind::unstructured_grid, VtkXmlKind::poly_data);
   for (const VtkXmlEncoding& encoding : some_encodings()) {
-    if (is_sanitized && encoding.compressor == VtkXmlCompressor::lzma) {
-      continue;
+    if (encoding.compressor == VtkXmlCompressor::lzma && (is_sanitized || kind == VtkXmlKind::poly_data)) {
+      continue;  // takes its time
     }
     INFO(to_string(encoding));
     const TemporaryPath file(extension_of(kind));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mpi/error_kinds.h"
 
 #include <array>
@@ -5,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "trismooth/base/machine/out_of_memory.h"
 #include "trismooth/mpi/communicator.h"
 
 #include "catch.h"
@@ -60,5 +62,20 @@ TEST_CASE("errors of one rank are thrown on all as the first kind that includes 
   }};
   for (const auto& [found, expected] : said) {
     CHECK(said_by_any(found == expected ? "" : found) == "");
+  }
+}
+
+TEST_CASE("whose memory was used up stays known where the error is agreed on once more, by all ranks") {
+  const int last = ranks() - 1;
+  const Communicator all(MPI_COMM_WORLD);
+  try {
+    all.on_all([&] { throw trismooth::OutOfMemory(last); });
+    FAIL("nothing was thrown");
+  } catch (const KnownToAll& known) {
+    try {
+      std::rethrow_exception(known.error);
+    } catch (const std::bad_alloc& error) {
+      CHECK(trismooth::whose_memory(error) == (ranks() > 1 ? "rank " + std::to_string(last) + ": " : ""));
+    }
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is wrong on one rank is said on all of them, alike; no coordinate has moved then, and the ranks go on.
 
 #include <algorithm>
@@ -287,6 +288,7 @@ TEST_CASE("options that are not the same on one rank are refused on all, by name
       {"evaluation", [](Job& job) { job.options.evaluation = trismooth::Evaluation::all; }},
       {"size_weight", [](Job& job) { job.options.mean_ratio.size_weight = 0.5; }},
       {"power", [](Job& job) { job.options.mean_ratio.power = 2; }},
+      {"steady", [](Job& job) { job.options.mean_ratio.steady = true; }},
       {"target", [](Job& job) { job.options.mean_ratio.target = TargetShape::input; }},
       {"guard", [](Job& job) { job.options.guard = false; }},
       {"untangle", [](Job& job) { job.options.untangle = trismooth::Untangle::on; }},
@@ -430,12 +432,13 @@ TEST_CASE("target lengths that are missing, none or different on one rank are re
       [](Job& job) { job.lengths[shared_vertex(job.piece)] = 2; }, lengths);
 }
 
-TEST_CASE("target lengths that the method does not look at do not matter, however many they are") {
+TEST_CASE("target lengths that the method does not look at are to be as many as vertices, and whatever they like") {
+  const Change lengths = [](Job& job) { job.lengths.assign(job.piece.ids.size(), -1); };
+  check_refused(
+      "invalid_argument", {"target_lengths has 1 entries"}, [](Job& job) { job.lengths = {1}; }, lengths);
   const Outcome expected = run(Job());
   Job job;
-  if (rank() == spoiled()) {
-    job.lengths = {1};
-  }
+  lengths(job);
   const Outcome outcome = run(job);
   CHECK(said_by_any(outcome.error + (same_bits(outcome.xy, expected.xy) ? "" : "other points")) == "");
 }

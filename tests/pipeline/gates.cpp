@@ -1,10 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/gates.h"
 
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 
+#include "trismooth/pipeline/deformation.h"
 #include "trismooth/quality/metrics.h"
 
 #include "catch.h"
@@ -101,6 +105,12 @@ TEST_CASE("every name gives the number it says") {
   CHECK(gate_value("inverted", report) == 3);
   CHECK(gate_value("degenerate", report) == 4);
   CHECK(gate_value("invalid_quadratic", report, trismooth::QuadraticQuality{10, 6, 0.5}) == 6);
+  trismooth::DeformedStep step;
+  step.crossings = 2;
+  step.overlaps = 5;
+  CHECK(gate_value("crossings", report, std::nullopt, &step) == 2);
+  CHECK(gate_value("overlaps", report, std::nullopt, &step) == 5);
+  CHECK(std::isnan(gate_value("overlaps", report)));
   for (const auto& metric : trismooth::all_metrics()) {
     const std::string name(metric.name);
     CAPTURE(name);
@@ -120,7 +130,7 @@ TEST_CASE("min_angle and max_angle are the extreme angles of the mesh") {
 
 TEST_CASE("the list of names is complete, without repeats, and every one is taken") {
   const auto names = gate_names();
-  CHECK(names.size() == 7 + 5 * (trismooth::metric_count + 1));
+  CHECK(names.size() == 9 + 5 * (trismooth::metric_count + 1));
   CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
   for (const std::string& name : names) {
     CAPTURE(name);

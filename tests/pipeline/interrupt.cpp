@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/cli/interrupt.h"
 
 #include <csignal>
@@ -64,6 +65,25 @@ TEST_CASE("once a file is put in its place, a signal changes nothing, and a seco
     CHECK(outcome == (signals == 2 ? 130 : 42));
     CHECK(std::filesystem::exists(folder / "mesh.off"));
     CHECK(folder.size() == 1);
+  }
+}
+
+TEST_CASE(
+    "a run that goes on to another mesh ends between the two where a signal came while one was put in its place") {
+  for (const bool is_interrupted : {false, true}) {
+    CAPTURE(is_interrupted);
+    const ScratchFolder folder;
+    const int outcome = outcome_after([&] {
+      trismooth::end_where_interrupted();
+      OutputFile(folder / "first.off").commit();
+      if (is_interrupted) {
+        std::raise(SIGTERM);
+      }
+      trismooth::end_where_interrupted();
+      OutputFile(folder / "second.off").commit();
+    });
+    CHECK(outcome == (is_interrupted ? 130 : 42));
+    CHECK(folder.size() == (is_interrupted ? 1 : 2));
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/report/region_table.h"
 
 #include <algorithm>
@@ -47,6 +48,19 @@ TEST_CASE("of many regions the worst are shown, in their order, and how many the
   CHECK(text.find("r26 ") < text.find("r27 "));
   CHECK(text.find("r28 ") < text.find("r29 "));
   CHECK(says(text, "the 4 worst of 30 regions"));
+}
+
+TEST_CASE("names are cut where they are long, and not so short that two regions have the same") {
+  for (const bool smoothed : {false, true}) {
+    PipelineResult result = regions(3, smoothed);
+    result.region_names = {"machine core inner", "machine core outer", "water"};
+    const std::string text = region_table(result);
+    CAPTURE(text);
+    CHECK(says(text, smoothed ? "machine core i.." : "machine core inner"));
+    CHECK(says(text, smoothed ? "machine core o.." : "machine core outer"));
+    result.region_names = {"machine core inner", "rotor", "water"};
+    CHECK(says(region_table(result), "machine core inner") == !smoothed);
+  }
 }
 
 TEST_CASE("no line is longer than 80 characters, whatever the names, and they are plain") {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/report/text_report.h"
 
 #include <algorithm>
@@ -185,6 +186,11 @@ TEST_CASE("a mesh that cannot be improved is told plainly, with the reason") {
   CHECK(says(text_report(sample::options(), result), "nothing moved: no vertex could be improved"));
   result.smoothing->reverted_vertices = 3;
   CHECK(says(text_report(sample::options(), result), "was taken back"));
+  result.smoothing->sweeps = 0;
+  result.smoothing->stop_reason = StopReason::quality_target;
+  CHECK(says(text_report(sample::options(), result), "nothing moved: the mesh has the target quality already"));
+  result.smoothing->stop_reason = StopReason::time_limit;
+  CHECK(says(text_report(sample::options(), result), "nothing moved: there was no time for a sweep"));
   result.input.free_vertices = 0;
   CHECK(says(text_report(sample::options(), result), "nothing to smooth: every vertex is fixed"));
   result.input.triangles = 0;

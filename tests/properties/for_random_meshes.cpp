@@ -1,22 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "properties/for_random_meshes.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "catch.h"
+#include "support/share_of_cases.h"
 
 namespace properties {
 
 namespace {
-
-std::int64_t from_environment(const char* name, std::int64_t otherwise) {
-  const char* const text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoll(text, nullptr, 10);
-}
 
 std::int64_t only_seed() {
   return from_environment("TRISMOOTH_SEED", -1);
@@ -176,7 +172,7 @@ class Shrinker {
 }  // namespace
 
 std::int64_t meshes_of(std::int64_t count) {
-  return only_seed() >= 0 ? 0 : count * from_environment("TRISMOOTH_MESHES", 100) / 100;
+  return only_seed() >= 0 ? 0 : count * per_cent_of_cases() / 100;
 }
 
 void for_random_meshes(std::int64_t count, const Property& property) {

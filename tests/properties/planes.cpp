@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What holds of meshes in planes of space that are known exactly, from inclined by a thousandth of a millionth on.
 
 #include <algorithm>
@@ -10,9 +11,9 @@
 #include <Eigen/Geometry>
 
 #include "trismooth/base/machine/workers.h"
-#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
+#include "trismooth/space/plane_smoothing.h"
 
 #include "catch.h"
 #include "properties/contract.h"

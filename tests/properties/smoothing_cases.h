@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -50,8 +51,8 @@ inline std::string text_of(const SmoothingOptions& options) {
                                        options.tolerance, options.untangles() ? ", untangled" : "");
   const trismooth::MeanRatioOptions& mean_ratio = options.mean_ratio;
   return options.method == Method::mean_ratio
-             ? fmt::format("{}, size weight {}, power {}, target {}", text, mean_ratio.size_weight, mean_ratio.power,
-                           to_string(mean_ratio.target))
+             ? fmt::format("{}, size weight {}, power {}, target {}{}", text, mean_ratio.size_weight, mean_ratio.power,
+                           to_string(mean_ratio.target), mean_ratio.steady ? ", steady" : "")
              : text;
 }
 
@@ -65,8 +66,8 @@ inline trismooth::MeanRatioOptions any_mean_ratio(test_meshes::Random& random) {
   if (random.below(2) == 0) {
     return {};
   }
-  return {random.below(3) * random.between(0, 2), random.below(9),
-          static_cast<trismooth::TargetShape>(random.below(2))};
+  return {random.below(3) * random.between(0, 2), random.below(9), static_cast<trismooth::TargetShape>(random.below(2)),
+          random.below(3) == 0};
 }
 
 /// How vertices slide: in any way.

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where smoothing ends: at fixed points that are fixed, at the solution of the linear system, at the caller's word.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -164,7 +166,7 @@ TEST_CASE("stopped by the callback after any sweep, the mesh is what that many s
   for_random_meshes(2000, [](const RandomMesh& mesh) {
     const Connectivity connectivity = connectivity_of(mesh);
     return for_some_options(mesh, 3, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
-      options.max_sweeps = 0;
+      options.max_sweeps = options.mean_ratio.steady ? 100000 : 0;
       options.tolerance = 1e-3;
       const std::int64_t last = 1 + random.below(8);
       std::int64_t heard = 0;
@@ -189,6 +191,36 @@ TEST_CASE("stopped by the callback after any sweep, the mesh is what that many s
       return wrong.empty() ? breach(mesh, connectivity, stopped, true) : wrong;
     });
   });
+}
+
+TEST_CASE("whenever its time is up a call leaves the mesh as it was, or nowhere worse") {
+  using Seconds = std::chrono::duration<double>;
+  std::int64_t ended = 0;
+  std::int64_t ended_before_sweeps = 0;
+  for_random_meshes(3000, [&](const RandomMesh& mesh) {
+    const Connectivity connectivity = connectivity_of(mesh);
+    return for_some_options(mesh, 3, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
+      const auto smooth_once = [&] {
+        Run run{mesh.mesh.xy(), {}};
+        run.result = trismooth::smooth(trismooth::xy_points(run.xy), mesh.mesh.indices(), mesh.constraints(), options);
+        return run;
+      };
+      const auto begin = std::chrono::steady_clock::now();
+      (void)smooth_once();
+      const Seconds whole = std::chrono::steady_clock::now() - begin;
+      options.time_limit_seconds = random.between(0, 1) * whole.count();
+      const Run run = smooth_once();
+      ended += run.result.stop_reason == StopReason::time_limit ? 1 : 0;
+      if (run.result.inverted < 0) {
+        ++ended_before_sweeps;
+        const bool is_said = run.result.stop_reason == StopReason::time_limit && run.result.sweeps == 0;
+        return is_said ? difference(run.xy, mesh.mesh.xy()) : "nobody said that its time was up";
+      }
+      return breach(mesh, connectivity, run, true);
+    });
+  });
+  CHECK(ended > ended_before_sweeps);
+  CHECK(ended_before_sweeps > 0);
 }
 
 TEST_CASE("a quality target stops at the first sweep that reaches it, and changes nothing before") {

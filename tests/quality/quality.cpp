@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/quality/quality.h"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -44,7 +46,7 @@ double shape_by_definition(const test_meshes::Mesh& mesh, const trismooth::Trian
   const long double acx = static_cast<long double>(c.x) - a.x;
   const long double acy = static_cast<long double>(c.y) - a.y;
   const long double sum = squared(abx, aby) + squared(acx, acy) + squared(abx - acx, aby - acy);
-  return static_cast<double>(2 * std::sqrt(3.0L) * (abx * acy - aby * acx) / sum);
+  return static_cast<double>(2 * std::numbers::sqrt3_v<long double> * (abx * acy - aby * acx) / sum);
 }
 
 void require_equal(const QualityReport& a, const QualityReport& b) {
@@ -166,7 +168,7 @@ TEST_CASE("what is no mesh, or no plane, has no quality, and the message says wh
     return refusal([&] { static_cast<void>(quality(points, triangles)); });
   };
   CHECK(of({{0, 1, 2}, {1, 3, 2}}) == "none");
-  CHECK(of({{0, 1, 4}}) == "mesh: triangle 0 names vertex 4 of 4");
+  CHECK(of({{0, 1, 4}}) == "mesh: triangle 0 names vertex 4; vertices are numbered from 0 to 3");
   CHECK(of({{0, 1, 1}}) == "mesh: triangle 0 repeats a vertex");
   const test_meshes::Mesh band = test_meshes::moebius_band(5);
   CHECK_THROWS_AS(quality(band.points, band.triangles), trismooth::MeshError);

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """same_as_one_file.py PROGRAM: a mesh in pieces gets the coordinates and the report of the mesh as one file."""
 
 import os
@@ -55,6 +56,16 @@ class SameAsOneFile(ranks_tool.RanksTest):
                 outcome = self.run_over(2, *arguments, expect=5)
                 self.assertEqual(len(self.errors_of(outcome)), 1, outcome)
                 self.assertFalse(os.path.exists(self.path(output)))
+
+    def test_arrays_that_are_not_there(self):
+        """They are refused in the words of one process, which name no array that ranks gave the mesh."""
+        pieces.write_vtu(self.path("whole.vtu"), self.random_mesh(300))
+        pieces.write_vtu(self.path("nothing.vtu"), pieces.Mesh([], []))
+        for name in ("whole.vtu", "nothing.vtu"):
+            for option in ("--fixed-array", "--region-array"):
+                alone = self.run_tool("smooth", name, "out.vtu", option, "nosuch", expect=2)
+                ranks = self.run_over(3, "smooth", name, "out.pvtu", option, "nosuch", expect=2)
+                self.assertEqual(self.errors_of(ranks), self.errors_of(alone), f"{name} {option}")
 
     def mixed_mesh(self):
         """Triangles listed either way, holes, quadrilaterals, regions under a name and by their looks, fixed points."""

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/constraints.h"
 
 #include <array>
@@ -28,9 +29,10 @@ static_assert(std::convertible_to<ArrayView<std::int32_t>, std::span<const std::
 static_assert(!std::convertible_to<Flags, ArrayView<std::uint8_t>>);
 static_assert(!std::convertible_to<const Flags, ArrayView<std::uint8_t>>);
 static_assert(!std::convertible_to<std::array<std::int32_t, 3>, ArrayView<std::int32_t>>);
-// Numbers of another type would have to be copied.
-static_assert(!std::convertible_to<Flags&, ArrayView<std::int32_t>>);
-static_assert(!std::convertible_to<std::vector<std::int64_t>&, ArrayView<std::int32_t>>);
+static_assert(!std::convertible_to<std::vector<std::int64_t>, ArrayView<std::int32_t>>);
+// Flags are flags, and numbers that are not whole are none of these.
+static_assert(!std::convertible_to<Ids&, ArrayView<std::uint8_t>>);
+static_assert(!std::convertible_to<std::vector<double>&, ArrayView<std::int32_t>>);
 
 template <class Numbers>
 concept IsRegions = requires(Numbers&& numbers) {
@@ -55,6 +57,32 @@ TEST_CASE("constraints of the right length, or none, fit") {
   CHECK(complaint({.fixed = flags, .fixed_ids = ids, .other_cells = flags, .regions = regions}, 4, 2).empty());
   CHECK(complaint({.regions = regions}, 4, 3) == "Constraints::regions has 2 entries, expected 3 or none");
   CHECK(complaint({.fixed_ids = ids}, 3, 3) == "fixed vertex 3 is not one of the 3 vertices");
+}
+
+template <class T>
+void check_other_type() {
+  const std::vector<T> numbers{3, 0, 100};
+  ArrayView<std::int32_t> view;
+  {
+    const Constraints constraints{.fixed_ids = numbers};
+    view = constraints.fixed_ids;
+  }
+  CHECK(std::ranges::equal(view, Ids{3, 0, 100}));
+}
+
+TEST_CASE("whole numbers of another type are converted, and kept by every copy of the view") {
+  check_other_type<std::int64_t>();
+  check_other_type<std::uint64_t>();
+  check_other_type<std::uint32_t>();
+  check_other_type<std::int16_t>();
+  check_other_type<std::uint8_t>();
+  check_other_type<char>();
+  const std::vector<std::int64_t> wide{7, std::int64_t{1} << 40};
+  CHECK(message_of<std::invalid_argument>([&] { (void)Constraints{.regions = wide}; }) ==
+        "number 1 of an array is 1099511627776, which has no place in 32 bits");
+  const std::vector<std::uint32_t> high{~std::uint32_t{0}};
+  CHECK(message_of<std::invalid_argument>([&] { (void)Constraints{.fixed_ids = high}; }) ==
+        "number 0 of an array is 4294967295, which has no place in 32 bits");
 }
 
 TEST_CASE("constraints show the caller's numbers, not a copy") {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/cpu_backend.h"
 
 #include <algorithm>
@@ -105,17 +106,6 @@ TEST_CASE("the sweep limit stops after as many sweeps, and 0 is none") {
   const SmoothingResult result = smoothed(test_meshes::jittered_grid(60, 60, 0.3, 1), options).result;
   CHECK(result.stop_reason == StopReason::tolerance);
   CHECK(result.sweeps > 1000);
-}
-
-TEST_CASE("a time limit of 0 stops after the first sweep") {
-  SmoothingOptions options;
-  options.time_limit_seconds = 0;
-  const auto [result, xy] = smoothed(grid(), options);
-  CHECK(result.stop_reason == StopReason::time_limit);
-  CHECK(result.sweeps == 1);
-  options.time_limit_seconds = std::numeric_limits<double>::infinity();
-  options.max_sweeps = 1;
-  CHECK(xy == smoothed(grid(), options).xy);
 }
 
 TEST_CASE("a quality target that is reached already means no sweep at all") {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -194,8 +195,10 @@ TEST_CASE("options of the method out of range are refused") {
     CHECK_THROWS_AS(options.validate(), std::invalid_argument);
   }
   SmoothingOptions options;
-  options.mean_ratio = {0, 8, TargetShape::input};
+  options.mean_ratio = {0, 8, TargetShape::input, true};
   CHECK_NOTHROW(options.validate());
+  options.max_sweeps = 0;
+  CHECK_THROWS_AS(options.validate(), std::invalid_argument);
 }
 
 }  // namespace trismooth::mean_ratio_meshes_test

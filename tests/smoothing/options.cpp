@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/options.h"
 
 #include <cstdint>
@@ -113,6 +114,10 @@ TEST_CASE("numbers out of range are refused, and the message names the option") 
   CHECK(complaint([](auto& o) { o.tolerance = -1e-9; }).find("tolerance") != std::string::npos);
   CHECK(complaint([](auto& o) { o.time_limit_seconds = -1; }).find("time limit") != std::string::npos);
   CHECK(complaint([](auto& o) { o.time_limit_seconds = not_a_number; }).find("time limit") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.method = static_cast<Method>(77); }) == "method: there is none of the number 77");
+  CHECK(complaint([](auto& o) { o.layers = static_cast<trismooth::Layers>(9); }).find("number 9") != std::string::npos);
+  CHECK(complaint([](auto& o) { o.proposal.energy = [](const auto&) { return 0.0; }; }).find("energy") !=
+        std::string::npos);
   CHECK(complaint([](auto& o) { o.time_limit_seconds = 0; }).empty());
   CHECK(complaint([](auto& o) { o.target_quality = 1.5; }).find("quality target") != std::string::npos);
 }

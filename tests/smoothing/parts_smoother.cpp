@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh in parts that threads smooth is the whole mesh: every method, form and precision. Many random ones are among
 // the properties; this one is small enough to watch the threads by.
 
 #include "trismooth/smoothing/in_parts/parts_smoother.h"
 
+#include <chrono>
 #include <cstdint>
+#include <thread>
 #include <vector>
 
 #include "trismooth/smoothing/smooth.h"
@@ -48,6 +51,26 @@ TEST_CASE("a mesh in parts comes out as the whole by every method, form and prec
     CHECK(parts.result.history.back().min_shape == whole.result.history.back().min_shape);
     CHECK(same_bits(parts.xy, whole.xy));
   }
+}
+
+TEST_CASE("what the parts of a mesh have done until a call is cancelled is kept") {
+  const test_meshes::Mesh mesh = distorted_meshes::displaced(60, 0.2, 5);
+  const PartsBackend in_parts(3);
+  SmoothingOptions options;
+  options.backend = &in_parts;
+  bool is_wanted = true;
+  options.cancel = [&is_wanted] { return !is_wanted; };
+  options.progress = [&is_wanted](const SweepRecord&) {
+    is_wanted = false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));  // so long that it is asked again
+    return Progress::stop;
+  };
+  const Outcome parts = smoothed(mesh, options);
+  CHECK(parts.result.stop_reason == StopReason::cancelled);
+  CHECK(parts.result.sweeps == 1);
+  SmoothingOptions one_sweep;
+  one_sweep.max_sweeps = 1;
+  CHECK(same_bits(parts.xy, smoothed(mesh, one_sweep).xy));
 }
 
 TEST_CASE("a length to aim at that is no number is told by the vertex's number in the whole mesh") {

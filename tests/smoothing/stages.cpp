@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/sweeps/stages.h"
 
 #include <algorithm>
@@ -208,6 +209,26 @@ TEST_CASE("where vertices slide a control has itself asked behind every fifth sw
   CHECK(result.stop_reason == StopReason::sweep_limit);
 }
 
+TEST_CASE("sweeps end while there is time for what comes behind them: as known, or as long as three first sweeps") {
+  for (const bool is_known : {false, true}) {
+    SmoothingOptions options;
+    options.time_limit_seconds = 99.9;
+    trismooth::CallLimit call(options.time_limit_seconds, {});
+    if (is_known) {
+      call.keep_back(20);
+    }
+    SmoothingResult result;
+    SweepControl control(options, 1000, result);
+    REQUIRE_FALSE(control.is_over());
+    double seconds = 10;
+    while (!control.add(moved_in_sweep(900), not_measured, seconds)) {
+      seconds += 5;
+    }
+    CHECK(seconds == (is_known ? 75 : 65));
+    CHECK(result.stop_reason == StopReason::time_limit);
+  }
+}
+
 TEST_CASE("sweeps are counted through the stages, and each begins with a sweep over all vertices") {
   for (const Form form : forms) {
     for (const Precision precision : precisions) {
@@ -321,17 +342,6 @@ TEST_CASE("a sweep limit, a callback and a quality target stop in either stage, 
       }
     }
   }
-}
-
-TEST_CASE("a time limit stops in the first stage, too") {
-  SmoothingOptions options = mean_ratio();
-  options.time_limit_seconds = 0;
-  const Run limited = smoothed(near_mesh(), options);
-  CHECK(limited.result.stop_reason == StopReason::time_limit);
-  CHECK(limited.result.sweeps == 1);
-  options.time_limit_seconds = SmoothingOptions{}.time_limit_seconds;
-  options.max_sweeps = 1;
-  CHECK(limited.xy == smoothed(near_mesh(), options).xy);
 }
 
 TEST_CASE("skipping what cannot move changes no bit in any stage") {

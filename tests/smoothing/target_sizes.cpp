@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes of the caller's own: how they are read, what the mean-ratio method aims at then, and what it makes of a mesh.
 
 #include <algorithm>
@@ -161,14 +162,36 @@ TEST_CASE("lengths that are none are refused by name, and the mesh is untouched"
     CHECK(xy == mesh.xy());
   }
   const Doubles few(mesh.points.size() - 1, 1);
-  const std::string message = message_of<std::invalid_argument>([&] { smoothed(mesh, aiming_at(few)); });
-  CHECK(message.find("target_lengths has 35 entries, expected 36 or none") != std::string::npos);
+  for (const Method method : trismooth::values_of<Method>()) {
+    SmoothingOptions with_few = aiming_at(few);
+    with_few.method = method;
+    const std::string message = message_of<std::invalid_argument>([&] { smoothed(mesh, with_few); });
+    CHECK(message.find("target_lengths has 35 entries, expected 36 or none") != std::string::npos);
+  }
+}
+
+TEST_CASE("lengths of float are those of double, and are read in every call of a plan") {
+  const Mesh mesh = test_meshes::jittered_grid(9, 9, 0.3, 2);
+  std::vector<float> single(mesh.points.size());
+  Doubles lengths(mesh.points.size());
+  SmoothingOptions of_single = aiming_at(lengths);
+  of_single.mean_ratio.target_lengths = single;
+  auto planned = trismooth::plan(mesh.vertex_count(), mesh.indices(), of_single);
+  for (const double growth : {1.0, 3.0}) {
+    for (std::size_t v = 0; v < single.size(); ++v) {
+      single[v] = static_cast<float>(0.1 + growth * mesh.points[v].x * mesh.points[v].x);
+      lengths[v] = static_cast<double>(single[v]);
+    }
+    Doubles xy = mesh.xy();
+    planned.smooth(xy);
+    CHECK(xy == smoothed(mesh, aiming_at(lengths)).xy);
+  }
 }
 
 TEST_CASE("other methods take no notice of lengths") {
   const Mesh mesh = test_meshes::jittered_grid(8, 8, 0.3, 1);
   for (const Method method : {Method::smart, Method::laplacian, Method::weighted}) {
-    const Doubles bad(3, -1);
+    const Doubles bad(mesh.points.size(), -1);
     SmoothingOptions with = aiming_at(bad);
     with.method = method;
     SmoothingOptions without;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -206,18 +207,25 @@ struct NumberedRing {
   std::int32_t number(int i) const { return numbers[static_cast<std::size_t>(i)]; }
 };
 
-/// The stages of the mean-ratio method: ten sweeps, and ten more as long as much moves, then the last.
+/// The stages of the mean-ratio method: ten sweeps, and ten more as long as much moves, then the last. Of a steady one
+/// the last alone, until nothing moves.
 class MeanRatioStages {
  public:
-  MeanRatioStages(Form form, std::size_t free_count)
-      : form_(form), free_count_(static_cast<double>(free_count)), is_last_(free_count == 0) {}
+  MeanRatioStages(Form form, std::size_t free_count, bool is_steady)
+      : form_(form),
+        free_count_(static_cast<double>(free_count)),
+        is_steady_(is_steady),
+        is_last_(free_count == 0 || is_steady) {}
 
   bool is_last() const { return is_last_; }
-  bool is_few(std::int64_t moved) const { return is_last_ && static_cast<double>(moved) <= free_count_ / 64; }
+  bool is_few(std::int64_t moved) const {
+    return is_last_ && static_cast<double>(moved) <= (is_steady_ ? 0 : free_count_ / 64);
+  }
   template <class T>
   trismooth::MeanRatioStep<T> step() const {
     const double in_place = is_last_ ? 1.5 : 1.8;
-    return {static_cast<T>(form_ == Form::swap ? 0.7 : in_place), static_cast<T>(goes_far_ ? 1e-4 : 3e-4), is_last_};
+    return {static_cast<T>(form_ == Form::swap ? 0.7 : in_place), static_cast<T>(goes_far_ ? 1e-4 : 3e-4), is_last_,
+            is_steady_};
   }
   /// Whether the stage ends with this sweep and another one begins.
   bool ends(std::int64_t moved, bool is_settled) {
@@ -235,6 +243,7 @@ class MeanRatioStages {
  private:
   Form form_;
   double free_count_;
+  bool is_steady_;
   bool is_last_;
   bool goes_far_ = false;
   int sweep_of_stage_ = 0;
@@ -250,7 +259,7 @@ Outcome smooth(std::vector<Point2<T>>& points, const Rings& rings, Method method
   for (const auto& colour : colour_classes(rings)) {
     visited.insert(visited.end(), colour.begin(), colour.end());
   }
-  MeanRatioStages stages(form, visited.size());
+  MeanRatioStages stages(form, visited.size(), mean_ratio.steady);
   const auto update = [&](std::int32_t v, Point2<T> position, const Ring<T>& ring) {
     if (has_formula(method)) {
       return updated(method, position, ring);

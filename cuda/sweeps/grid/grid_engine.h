@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -50,14 +51,17 @@ class GridEngine {
 
   /// The rings of the free vertices, for kernels.
   auto rings() const { return rings_.view(); }
-  /// Where the working positions are to be written before begin(): both of these (which may be the same).
+  /// Where the working positions are to be written before begin() and aim_at_input(): both of these (which may be the
+  /// same).
   std::pair<Points, Points> input() const { return {mesh_.first.points, mesh_.second.points}; }
   /// The sizes that are asked for: before the first run, where the options say that they are.
   void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes) {
     targets_.set_sizes(order, inverse_sizes);
   }
-  /// Makes ready for a run from those positions.
-  void begin() { targets_.find(rings(), mesh_.first.points); }
+  /// From now on those positions, in a local frame of that exponent, are what the method aims at, if it has targets.
+  void aim_at_input(int exponent) { targets_.keep(rings(), mesh_.first.points, exponent); }
+  /// Makes ready for a run from those positions, which are in that local frame, on the device.
+  void begin(const LocalFrame* frame) { targets_.find(rings(), mesh_.first.points, frame); }
   /// Makes ready for a stage of the run, which begins with a sweep over all vertices.
   void begin_stage() {
     for (DeviceBuffer<std::uint32_t>& marks : marks_) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
@@ -43,7 +44,8 @@ class PatchEngine {
   void set_sizes(const VertexOrder& order, std::span<const double> inverse_sizes) {
     targets_.set_sizes(order, inverse_sizes);
   }
-  void begin() { targets_.find(rings(), mesh_.first.points); }
+  void aim_at_input(int exponent) { targets_.keep(rings(), mesh_.first.points, exponent); }
+  void begin(const LocalFrame* frame) { targets_.find(rings(), mesh_.first.points, frame); }
   void begin_stage() {
     for (DeviceBuffer<std::uint8_t>& moved : moved_) {
       moved.fill_bytes(1);

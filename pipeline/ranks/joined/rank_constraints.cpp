@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/ranks/joined/rank_constraints.h"
 
 #include <algorithm>
@@ -21,24 +22,23 @@ namespace trismooth {
 
 namespace {
 
-/// On ranks without pieces too.
+/// On ranks without pieces too. Throws as find_fixed_array() does.
 std::string name_of_fixed_array(const PieceFiles& files, const std::optional<std::string>& name) {
-  std::vector<DataArray> names;
+  MeshDocument with_names;
   for (const PieceArray& array : files.arrays) {
     if (array.of == PieceArray::Of::points && !array.is_added) {
-      names.emplace_back().name = array.name;
+      with_names.point_arrays.emplace_back().name = array.name;
     }
   }
-  const DataArray* const array = choose_fixed_array(names, name);
-  return array == nullptr ? std::string() : array->name;
+  return find_fixed_array(with_names, name).array;
 }
 
-void hold_by_array(const PieceFiles& files, const std::optional<std::string>& name, RankConstraints& constraints) {
+void hold_by_array(const PieceFiles& files, RankConstraints& constraints) {
   for (const Piece& piece : files.pieces) {
-    if (piece.document.point_count() == 0) {
+    if (constraints.fixed_array.empty() || piece.document.point_count() == 0) {
       continue;  // which may lack arrays
     }
-    const FixedArray fixed = find_fixed_array(piece.document, name);
+    const FixedArray fixed = find_fixed_array(piece.document, constraints.fixed_array);
     for (std::size_t i = 0; i < fixed.flags.size(); ++i) {
       constraints.by_array[static_cast<std::size_t>(piece.vertices[i])] |= fixed.flags[i];
     }
@@ -161,9 +161,11 @@ ReadError unknown_vertex(const PipelineOptions& options, std::int64_t id) {
 RankConstraints find_rank_constraints(const PieceFiles& files, const RankMesh& mesh, const PipelineOptions& options,
                                       const mpi::Communicator& ranks) {
   RankConstraints constraints;
-  constraints.fixed_array = name_of_fixed_array(files, options.fixed_array);
   constraints.by_array.assign(mesh.ids.size(), 0);
-  agree(ranks, [&] { hold_by_array(files, options.fixed_array, constraints); });
+  agree(ranks, [&] {
+    constraints.fixed_array = name_of_fixed_array(files, options.fixed_array);
+    hold_by_array(files, constraints);
+  });
   constraints.named = constraints.by_array;
   hold_by_sets(files, constraints);
   if (!files.was_read_whole) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/ranks/joined/rank_regions.h"
 
 #include <algorithm>
@@ -255,9 +256,9 @@ class RankRegionFinder {
     std::ranges::transform(candidates_, std::back_inserter(arrays),
                            [this](const PieceArray* array) { return asked_of(*array); });
     try {
-      choose_regions(arrays, names, {},
-                     [this](std::size_t place, RegionReason reason) { obey(*candidates_[place], reason); },
-                     regions_.notes, {"the pieces have", "they have"});
+      choose_regions(
+          arrays, names, {}, [this](std::size_t place, RegionReason reason) { obey(*candidates_[place], reason); },
+          regions_.notes, names_parallel_file(files_.path) ? ArrayOwner{"the pieces have", "they have"} : ArrayOwner{});
     } catch (const std::invalid_argument&) {
       throw mpi::KnownToAll{std::current_exception()};
     }

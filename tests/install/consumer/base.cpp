@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The component base alone: points and triangles as views of a caller's arrays, and the version.
 #include <array>
 #include <cstdint>
@@ -14,5 +15,8 @@ int main() {
   const trismooth::PointView points = trismooth::xy_points(xy);
   const trismooth::IndexView corners = triangle;
   std::printf("trismooth %s: %zu points, %zu triangles\n", TRISMOOTH_VERSION, points.size(), corners.size());
-  return points.size() == 3 && corners.size() == 1 && trismooth::version() == TRISMOOTH_VERSION ? 0 : 1;
+  return points.size() == 3 && corners.size() == 1 && trismooth::version() == TRISMOOTH_VERSION &&
+                 trismooth::library_version() == trismooth::version()
+             ? 0
+             : 1;
 }

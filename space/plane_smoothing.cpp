@@ -1,4 +1,5 @@
-#include "trismooth/mesh_io/halfedge/plane_smoothing.h"
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/space/plane_smoothing.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "trismooth/smoothing/result.h"
+
+namespace trismooth {
+
+/// What MovingMesh::follow() did.
+struct FollowResult {
+  static constexpr std::size_t most_listed = 1000;
+
+  /// Of the sweeps from where the vertices were carried to: what has moved, gone back and been untangled counts from
+  /// there. `inverted` and `degenerate` count triangles of the result as the reference orients them.
+  SmoothingResult smoothing;
+  /// The smallest and the mean shape of a triangle seen from the reference's: the mean ratio of the map from that
+  /// triangle to this one, 1 where it is a similar one and 0 or less where it is degenerate or inverted. Triangles that
+  /// are not valid in the reference are left out; NaN where there is no other.
+  double min_relative_shape = 0;
+  double mean_relative_shape = 0;
+  /// Triangles whose corners are all held, and that the boundary itself has inverted or made degenerate: no place of
+  /// the free vertices mends them.
+  std::int64_t invalid_held = 0;
+  /// Edges between held vertices that cross or touch each other, to rounding, and do not in the reference: two pairs of
+  /// vertices each. Where there are any the mesh lies over itself or on itself, inverted or not. Of more than
+  /// most_listed some; none are looked for where the reference itself has a hundred times as many.
+  std::vector<std::array<std::int32_t, 4>> crossings;
+  /// Vertices around which the mesh lies over itself and does not in the reference, ascending: where the triangles
+  /// around one go round it more than once, as where a hole has been turned inside out. The first most_listed. Where
+  /// there are none, nor crossings or inverted triangles, a mesh lies over itself nowhere that the reference does not.
+  std::vector<std::int32_t> overlaps;
+  /// The triangles that are inverted or degenerate, ascending; the first most_listed.
+  std::vector<std::int32_t> invalid;
+  double largest_move = 0;  ///< of a vertex from the last mesh (at first: the reference) to this one, in its units
+};
+
+}  // namespace trismooth

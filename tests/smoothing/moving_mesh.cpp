@@ -1,0 +1,639 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes that follow their boundary.
+#include "trismooth/smoothing/moving_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trismooth/quality/quality.h"
+#include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/moving/crossings.h"
+
+#include "catch.h"
+#include "support/refusal.h"
+#include "support/rotor.h"
+#include "support/same_bits.h"
+#include "support/says.h"
+#include "support/test_meshes.h"
+
+namespace trismooth::moving_mesh_test {
+
+using test_meshes::Mesh;
+using test_meshes::Rotor;
+using test_meshes::turned;
+using test_support::refusal;
+using Points = std::vector<Point2<double>>;
+
+constexpr double degree = std::numbers::pi / 180;
+
+SmoothingOptions smoothing_layers() {
+  SmoothingOptions options = moving_options();
+  options.layers = Layers::smooth;
+  return options;
+}
+
+TEST_CASE("the same boundary gives the same bits, whatever came before, and by any number of threads") {
+  const Rotor rotor;
+  const double angle = 25 * degree;
+  SmoothingOptions options = smoothing_layers();
+  options.threads = 1;
+  MovingMesh alone(rotor.mesh.points, rotor.mesh.indices(), options);
+  Points expected = rotor.at(angle);
+  alone.follow(expected);
+  for (const int threads : {2, 3, 7}) {
+    options.threads = threads;
+    MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), options);
+    for (const double before : {40.0, -30.0, 5.0}) {
+      Points elsewhere = rotor.at(before * degree);
+      moving.follow(elsewhere, before > 0 ? MovingStart::reference : MovingStart::previous);
+    }
+    Points points = rotor.at(angle);
+    moving.follow(points);
+    CHECK((points == expected));
+    CHECK((moving.points() == expected));
+  }
+}
+
+TEST_CASE("a square rotor turns by half a turn and no triangle is inverted") {
+  const Rotor rotor;
+  const TargetShape target = GENERATE(TargetShape::input, TargetShape::uniform);
+  SmoothingOptions options = smoothing_layers();
+  options.mean_ratio.target = target;
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), options);
+  double last = 1;
+  for (const double degrees : {10.0, 45.0, 90.0, 150.0}) {
+    CAPTURE(degrees);
+    Points points = rotor.at(degrees * degree);
+    const Points boundary = points;
+    const FollowResult result = moving.follow(points);
+    const QualityReport found = quality(points, rotor.mesh.indices());
+    CHECK(found.inverted == 0);
+    CHECK(found[Metric::shape].min > 0.1);
+    CHECK(result.smoothing.inverted == 0);
+    CHECK(result.smoothing.degenerate == 0);
+    CHECK(result.invalid_held == 0);
+    CHECK(result.mean_relative_shape < last);
+    last = result.mean_relative_shape;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      if (!rotor.is_inside(v)) {
+        CHECK(same_bits(points[v], boundary[v]));
+      }
+    }
+  }
+}
+
+TEST_CASE("a mesh whose boundary moves as a rigid body moves as one") {
+  const Mesh mesh = test_meshes::jittered_grid(17, 17, 0.2, 3);
+  MovingMesh moving(mesh.points, mesh.indices());
+  Points at_rest = mesh.points;
+  moving.follow(at_rest);
+  for (const double degrees : {0.0, 30.0, 90.0, 170.0}) {
+    CAPTURE(degrees);
+    const auto moved = [&](Point2<double> p) {
+      const Point2<double> q = turned(p, degrees * degree);
+      return Point2<double>{q.x + 300, q.y - 20};
+    };
+    Points points(mesh.points.size());
+    std::ranges::transform(mesh.points, points.begin(), moved);
+    const FollowResult result = moving.follow(points);
+    CHECK(result.smoothing.inverted == 0);
+    double farthest = 0;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const Point2<double> expected = moved(at_rest[v]);
+      farthest = std::max(farthest, std::hypot(points[v].x - expected.x, points[v].y - expected.y));
+    }
+    CHECK(farthest < 0.05 / 16);  // a twentieth of an edge: where sweeps stop depends on the last digits
+  }
+}
+
+TEST_CASE("a layer on a wall that moves and turns keeps its height") {
+  // A floor with a layer of 8 rows, the first of a hundredth of an edge along it.
+  constexpr int columns = 41;
+  Mesh mesh;
+  std::vector<double> heights{0};
+  for (double row = 0.0005; heights.back() < 1; row *= heights.size() < 9 ? 1.3 : 1.7) {
+    heights.push_back(heights.back() + row);
+  }
+  const auto rows = static_cast<int>(heights.size());
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      mesh.points.push_back({2.0 * i / (columns - 1), heights[j]});
+      if (i + 1 < columns && j + 1 < rows) {
+        const int v = j * columns + i;
+        mesh.triangles.insert(mesh.triangles.end(), {{v, v + 1, v + columns + 1}, {v, v + columns + 1, v + columns}});
+      }
+    }
+  }
+  MovingMesh moving(mesh.points, mesh.indices());
+  for (const double slope : {0.1, -0.2}) {
+    CAPTURE(slope);
+    Points points = mesh.points;
+    // The floor bends to a bump; the sides stand where they were.
+    for (int i = 0; i < columns; ++i) {
+      const double x = points[i].x;
+      points[i].y += slope * std::pow(std::sin(std::numbers::pi * x / 2), 2);
+    }
+    const FollowResult result = moving.follow(points);
+    CHECK(result.smoothing.layers.kept > 0);
+    CHECK(quality(points, mesh.indices()).inverted == 0);
+    for (int i = 2; i < columns - 2; ++i) {
+      // The distance from the wall, seen along its normal.
+      const Point2<double> along{points[i + 1].x - points[i - 1].x, points[i + 1].y - points[i - 1].y};
+      const Point2<double> up{points[columns + i].x - points[i].x, points[columns + i].y - points[i].y};
+      const double height = (along.x * up.y - along.y * up.x) / std::hypot(along.x, along.y);
+      CHECK(height == Approx(heights[1]).epsilon(0.05));
+    }
+  }
+}
+
+TEST_CASE("steps from the last mesh stay valid, and the result says how far vertices have moved") {
+  const Rotor rotor;
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), smoothing_layers());
+  Points last = rotor.mesh.points;
+  for (int step = 1; step <= 12; ++step) {
+    Points points = rotor.at(5 * step * degree);
+    const FollowResult result = moving.follow(points, MovingStart::previous);
+    CHECK(quality(points, rotor.mesh.indices()).inverted == 0);
+    double farthest = 0;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      farthest = std::max(farthest, std::hypot(points[v].x - last[v].x, points[v].y - last[v].y));
+    }
+    CHECK(result.largest_move == Approx(farthest));
+    last = points;
+  }
+}
+
+TEST_CASE("what a boundary makes impossible is counted, never silent") {
+  const Mesh mesh = test_meshes::jittered_grid(9, 9, 0.2, 5);
+  MovingMesh moving(mesh.points, mesh.indices());
+  Points points = mesh.points;
+  for (int i = 0; i < 9; ++i) {
+    points[i].y = 1.5;  // the floor above the ceiling
+  }
+  const FollowResult result = moving.follow(points);
+  // All triangles of the reference are listed counter-clockwise.
+  std::int64_t clockwise = 0;
+  std::int64_t flat = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Point2<double> ab = points[b] - points[a];
+    const Point2<double> ac = points[c] - points[a];
+    const double area = ab.x * ac.y - ab.y * ac.x;
+    clockwise += area < 0 ? 1 : 0;
+    flat += area == 0 ? 1 : 0;
+  }
+  CHECK(clockwise > 0);
+  CHECK(result.smoothing.inverted == clockwise);
+  CHECK(result.smoothing.degenerate == flat);
+  CHECK(result.min_relative_shape < 0);
+}
+
+/// Where on `one` the line of `other` crosses it, and the other way round, as parts of them, solved for as a system.
+std::array<double, 2> parts_at_crossing(const Points& points, std::array<std::int32_t, 2> one,
+                                        std::array<std::int32_t, 2> other) {
+  const Point2<double> a = points[one[1]] - points[one[0]];
+  const Point2<double> b = points[other[1]] - points[other[0]];
+  const Point2<double> between = points[other[0]] - points[one[0]];
+  const double determinant = b.x * a.y - a.x * b.y;
+  return {(b.x * between.y - between.x * b.y) / determinant, (a.x * between.y - a.y * between.x) / determinant};
+}
+
+/// Whether edges that are not nearly parallel cross each other.
+bool do_cross(const Points& points, std::array<std::int32_t, 2> one, std::array<std::int32_t, 2> other) {
+  const Point2<double> a = points[one[1]] - points[one[0]];
+  const Point2<double> b = points[other[1]] - points[other[0]];
+  const auto [here, there] = parts_at_crossing(points, one, other);
+  return std::abs(a.x * b.y - a.y * b.x) > 1e-9 * std::hypot(a.x, a.y) * std::hypot(b.x, b.y) && here > 1e-9 &&
+         here < 1 - 1e-9 && there > 1e-9 && there < 1 - 1e-9;
+}
+
+/// Two edges, whichever way they are listed.
+std::array<std::int32_t, 4> in_order(std::array<std::int32_t, 2> one, std::array<std::int32_t, 2> other) {
+  std::ranges::sort(one);
+  std::ranges::sort(other);
+  const auto& [first, second] = std::minmax(one, other);
+  return {first[0], first[1], second[0], second[1]};
+}
+
+TEST_CASE("a boundary that crosses itself is named, edge by edge") {
+  const Rotor rotor;
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices());
+  std::vector<std::array<std::int32_t, 2>> edges;
+  for (std::int32_t i = 0; i < rotor.sectors; ++i) {
+    const std::int32_t next = (i + 1) % rotor.sectors;
+    edges.push_back({i, next});
+    edges.push_back({rotor.sectors * rotor.rings + i, rotor.sectors * rotor.rings + next});
+  }
+  std::size_t most = 0;
+  for (const double shift : {0.0, 2.9, 3.4, 4.1, 9.0}) {
+    Points points = rotor.at(20 * degree);
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      points[v].x += rotor.is_on_rotor(v) ? shift : 0;
+    }
+    std::set<std::array<std::int32_t, 4>> expected;
+    for (const auto& one : edges) {
+      for (const auto& other : edges) {
+        if (one < other && do_cross(points, one, other)) {
+          expected.insert(in_order(one, other));
+        }
+      }
+    }
+    std::set<std::array<std::int32_t, 4>> found;
+    for (const auto& [a, b, c, d] : moving.follow(points).crossings) {
+      found.insert(in_order({a, b}, {c, d}));
+    }
+    CAPTURE(shift);
+    CHECK(found == expected);
+    most = std::max(most, found.size());
+  }
+  CHECK(most >= 2);
+}
+
+/// How far a point is from an edge.
+long double distance_to(const Points& points, std::int32_t v, std::array<std::int32_t, 2> edge) {
+  using Real = long double;
+  const auto [a, b] = edge;
+  const Real x = Real(points[b].x) - points[a].x;
+  const Real y = Real(points[b].y) - points[a].y;
+  const Real to_x = Real(points[v].x) - points[a].x;
+  const Real to_y = Real(points[v].y) - points[a].y;
+  const Real part = std::clamp((to_x * x + to_y * y) / (x * x + y * y), Real(0), Real(1));
+  return std::hypot(to_x - part * x, to_y - part * y);
+}
+
+/// Whether an end of one edge lies on the other one; of edges that share an end the other ends count.
+bool do_touch(const Points& points, std::array<std::int32_t, 2> one, std::array<std::int32_t, 2> other) {
+  const auto lies_on = [&](std::int32_t v, std::array<std::int32_t, 2> edge) {
+    return v != edge[0] && v != edge[1] && distance_to(points, v, edge) < 1e-15L;
+  };
+  return lies_on(one[0], other) || lies_on(one[1], other) || lies_on(other[0], one) || lies_on(other[1], one);
+}
+
+TEST_CASE("of edges anywhere those that cross or touch are found, whichever they are") {
+  test_meshes::Random dice(11);
+  Points points;
+  for (int i = 0; i < 240; ++i) {
+    // Some lie on a line that is slanted, some in a row, and lengths are of all kinds.
+    const double along = dice.between(0, 1);
+    const double away = i % 3 == 0 ? 0 : dice.between(-0.05, 0.05);
+    points.push_back({0.6 * along - 0.8 * away, i % 5 == 0 ? 0.25 : 0.8 * along + 0.6 * away});
+    if (i % 7 == 6) {
+      points.back() = points[static_cast<std::size_t>(dice.below(i))];  // in the place of another one
+    }
+  }
+  std::vector<std::array<std::int32_t, 2>> edges;
+  for (int i = 0; i < 300; ++i) {
+    const std::int32_t a = dice.below(240);
+    const std::int32_t b = i % 4 == 0 ? dice.below(240) : (a + 1) % 240;
+    if (!(points[a] == points[b])) {
+      edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<std::array<std::int32_t, 2>> expected;
+  std::size_t touching = 0;
+  for (std::int32_t one = 0; one < std::ssize(edges); ++one) {
+    for (std::int32_t other = one + 1; other < std::ssize(edges); ++other) {
+      const bool is_crossing = do_cross(points, edges[one], edges[other]);
+      if (is_crossing || do_touch(points, edges[one], edges[other])) {
+        expected.push_back({one, other});
+        touching += is_crossing ? 0 : 1;
+      }
+    }
+  }
+  CHECK(touching > 300);
+  CHECK(expected.size() > 500);
+  std::vector<std::array<std::int32_t, 2>> found;
+  for (const MeetingEdges& meeting : meeting_edges(edges, points, 1000000)) {
+    found.push_back({meeting.one, meeting.other});
+    CHECK(meeting.cross == do_cross(points, edges[meeting.one], edges[meeting.other]));
+  }
+  std::vector<std::array<std::int32_t, 2>> different;
+  std::ranges::set_symmetric_difference(found, expected, std::back_inserter(different));
+  CHECK(different.empty());
+  CHECK(meeting_edges(edges, points, 7).size() == 7);
+}
+
+TEST_CASE("a triangle whose corners come to lie in one place has no shape, as seen from the reference") {
+  const Points reference{{0, 0}, {1, 0}, {0, 1}};
+  const std::vector<std::int32_t> triangles{0, 1, 2};
+  MovingMesh moving(reference, triangles);
+  Points points{{3, 4}, {3, 4}, {3, 4}};
+  const FollowResult result = moving.follow(points);
+  CHECK(result.min_relative_shape == 0);
+  CHECK(result.mean_relative_shape == 0);
+  CHECK(result.smoothing.degenerate == 1);
+  CHECK(result.invalid_held == 1);
+}
+
+/// Two triangles on either side of a slit whose faces are in the same place, and one that lies across others.
+struct Slit {
+  Points at_rest{{0, 0}, {1, 0}, {0.5, 1}, {0, 0}, {1, 0}, {0.5, -1}, {0.2, 0.5}, {0.8, 0.5}, {0.5, -0.5}};
+  std::vector<std::int32_t> triangles{0, 1, 2, 4, 3, 5, 7, 6, 8};
+  MovingMesh moving{at_rest, triangles};
+
+  FollowResult follow(Points points) { return moving.follow(points); }
+};
+
+TEST_CASE("a boundary that touches or crosses itself as it did in the reference is not said to") {
+  Slit slit;
+  CHECK(slit.follow(slit.at_rest).crossings.empty());
+  Points apart = slit.at_rest;
+  for (const std::size_t v : {6, 7, 8}) {
+    apart[v].x += 5;
+  }
+  CHECK(slit.follow(apart).crossings.empty());
+  Points turned_as_one = slit.at_rest;
+  for (Point2<double>& p : turned_as_one) {
+    p = turned(p, 1.1);
+  }
+  CHECK(slit.follow(turned_as_one).crossings.empty());
+  Points through = apart;
+  for (const std::size_t v : {3, 4, 5}) {
+    through[v].y += 0.25;
+  }
+  CHECK_FALSE(slit.follow(through).crossings.empty());
+}
+
+/// A ring of triangles around a square hole.
+struct Ring {
+  static constexpr int around = 16;
+
+  Ring() {
+    for (int j = 0; j <= 2; ++j) {
+      for (int i = 0; i < around; ++i) {
+        const double angle = 2 * std::numbers::pi * i / around;
+        points.push_back({(1 + j) * std::cos(angle), (1 + j) * std::sin(angle)});
+        if (j < 2) {
+          const int next = (i + 1) % around;
+          triangles.insert(triangles.end(), {j * around + i, (j + 1) * around + i, (j + 1) * around + next});
+          triangles.insert(triangles.end(), {j * around + i, (j + 1) * around + next, j * around + next});
+        }
+      }
+    }
+  }
+
+  Points points;
+  std::vector<std::int32_t> triangles;
+};
+
+TEST_CASE("a mesh that lies over itself says so, though nothing is inverted and no edges cross") {
+  SECTION("where a hole has been turned inside out") {
+    const Ring ring;
+    MovingMesh moving(ring.points, ring.triangles);
+    Points points = ring.points;
+    for (int i = 0; i < Ring::around; ++i) {
+      points[i].x = -points[i].x;
+    }
+    const FollowResult result = moving.follow(points);
+    CHECK(result.crossings.empty());
+    CHECK((result.smoothing.inverted > 0 || !result.overlaps.empty()));
+    CHECK(moving.follow(points = ring.points).overlaps.empty());
+  }
+  SECTION("where a slit is pushed through itself between its tips") {
+    // A strip of squares above a line and one below it; from 1 to 3 they have vertices of their own on it.
+    Points points;
+    for (int row = 0; row < 3; ++row) {
+      for (int i = 0; i < 5; ++i) {
+        points.push_back({double(i), double(row - 1)});
+      }
+    }
+    points.push_back({2, 0});  // the upper face
+    std::vector<std::int32_t> triangles;
+    for (int row = 0; row < 2; ++row) {
+      for (int i = 0; i < 4; ++i) {
+        const auto at = [&](int column, int line) {
+          return line == 1 && column == 2 && row == 1 ? 15 : 5 * line + column;
+        };
+        triangles.insert(triangles.end(), {at(i, row), at(i + 1, row), at(i + 1, row + 1)});
+        triangles.insert(triangles.end(), {at(i, row), at(i + 1, row + 1), at(i, row + 1)});
+      }
+    }
+    MovingMesh moving(points, triangles);
+    Points through = points;
+    through[15].y = -0.2;
+    const FollowResult result = moving.follow(through);
+    CHECK(result.smoothing.inverted == 0);
+    CHECK(result.overlaps == std::vector<std::int32_t>{6, 8});
+    CHECK(moving.follow(points).overlaps.empty());
+  }
+}
+
+TEST_CASE("edges that come to lie on each other are named") {
+  SECTION("where a vertex of a side goes past the next one") {
+    const Mesh mesh = test_meshes::jittered_grid(7, 7, 0, 1);
+    MovingMesh moving(mesh.points, mesh.indices());
+    Points points = mesh.points;
+    points[3].x = points[4].x + 0.4 * (points[4].x - points[3].x);
+    const FollowResult result = moving.follow(points);
+    CHECK_FALSE(result.crossings.empty());
+  }
+  SECTION("where a vertex comes to lie on another edge") {
+    const Ring ring;
+    MovingMesh moving(ring.points, ring.triangles);
+    Points points = ring.points;
+    points[0] = {3, 0};  // that of the outer circle
+    CHECK_FALSE(moving.follow(points).crossings.empty());
+  }
+}
+
+TEST_CASE("the triangles that are inverted or degenerate are listed") {
+  const Mesh mesh = test_meshes::jittered_grid(9, 9, 0.2, 5);
+  MovingMesh moving(mesh.points, mesh.indices());
+  Points points = mesh.points;
+  for (int i = 0; i < 9; ++i) {
+    points[i].y = 1.5;
+  }
+  const FollowResult result = moving.follow(points);
+  std::vector<std::int32_t> expected;
+  for (std::int32_t t = 0; t < std::ssize(mesh.triangles); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Point2<double> ab = points[b] - points[a];
+    const Point2<double> ac = points[c] - points[a];
+    if (!(ab.x * ac.y - ab.y * ac.x > 0)) {
+      expected.push_back(t);
+    }
+  }
+  CHECK_FALSE(expected.empty());
+  CHECK(result.invalid == expected);
+}
+
+double largest_distance(const Points& one, const Points& other) {
+  double largest = 0;
+  for (std::size_t v = 0; v < one.size(); ++v) {
+    largest = std::max(largest, std::hypot(one[v].x - other[v].x, one[v].y - other[v].y));
+  }
+  return largest;
+}
+
+TEST_CASE("as little as the boundary moves, as little moves the mesh, so that velocities mean something") {
+  const Rotor rotor;
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), smoothing_layers());
+  for (const double angle : {3.0, 10.0, 25.0}) {
+    Points points = rotor.at(angle * degree);
+    REQUIRE(moving.follow(points).smoothing.untangling->inverted_before == 0);
+    for (const double step : {1e-2, 1e-4, 1e-6, 1e-8}) {
+      Points further = rotor.at(angle * degree + step);
+      moving.follow(further);
+      CAPTURE(angle, step);
+      // A corner of the rotor goes as far as step times how far it is from the middle.
+      CHECK(largest_distance(points, further) < 1.5 * step * 0.7 * std::numbers::sqrt2);
+    }
+  }
+}
+
+TEST_CASE(
+    "from the last mesh on a boundary that stays leaves the mesh where it is, after a few steps to the last bit") {
+  const Rotor rotor;
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), smoothing_layers());
+  Points points = rotor.at(20 * degree);
+  moving.follow(points);
+  for (int step = 0; step < 20; ++step) {
+    moving.follow(points, MovingStart::previous);
+  }
+  const Points settled = points;
+  moving.follow(points, MovingStart::previous);
+  CHECK((points == settled));
+}
+
+TEST_CASE("a run that was broken off goes on as if it had not been") {
+  const Rotor rotor;
+  MovingMesh whole(rotor.mesh.points, rotor.mesh.indices(), smoothing_layers());
+  MovingMesh again(rotor.mesh.points, rotor.mesh.indices(), smoothing_layers());
+  Points last = rotor.at(20 * degree);
+  whole.follow(last, MovingStart::previous);
+  again.go_on_from(last);
+  CHECK((again.points() == last));
+  Points expected = rotor.at(22 * degree);
+  Points points = rotor.at(22 * degree);
+  const double largest_move = whole.follow(expected, MovingStart::previous).largest_move;
+  CHECK(again.follow(points, MovingStart::previous).largest_move == largest_move);
+  CHECK((points == expected));
+  Points few(3);
+  CHECK_THROWS_AS(again.go_on_from(few), std::invalid_argument);
+  points[0].x = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(again.go_on_from(points), MeshError);
+  CHECK((again.points() == expected));
+}
+
+TEST_CASE("heights of vertices that are told where to be have to be one, those of the others do not matter") {
+  const Rotor rotor;
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices());
+  const Points flat = rotor.at(5 * degree);
+  std::vector<std::array<double, 3>> points;
+  for (std::size_t v = 0; v < flat.size(); ++v) {
+    points.push_back({flat[v].x, flat[v].y, rotor.is_inside(v) ? 7.0 + double(v) : 2.0});
+  }
+  const std::vector<std::array<double, 3>> given = points;
+  CHECK(moving.follow(points).smoothing.inverted == 0);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    CHECK(points[v][2] == given[v][2]);
+  }
+  points = given;
+  points[0][2] = 2.5;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    points[v][0] = rotor.is_inside(v) ? 1e9 : points[v][0];
+  }
+  CHECK_THROWS_AS(moving.follow(points), MeshError);
+}
+
+TEST_CASE("shapes relative to the reference are those of the maps from its triangles") {
+  const Mesh mesh = test_meshes::jittered_grid(7, 6, 0.25, 9);
+  MovingMesh moving(mesh.points, mesh.indices());
+  Points points = mesh.points;
+  for (Point2<double>& p : points) {
+    p = {3 * p.x + p.y, 2 * p.y};
+  }
+  const FollowResult result = moving.follow(points);
+  double least = 1;
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) {
+    const auto edges = [&](const Points& of) {
+      return std::array{of[t[1]].x - of[t[0]].x, of[t[2]].x - of[t[0]].x, of[t[1]].y - of[t[0]].y,
+                        of[t[2]].y - of[t[0]].y};
+    };
+    const auto [a, b, c, d] = edges(mesh.points);
+    const auto [e, f, g, h] = edges(points);
+    const double determinant = a * d - b * c;
+    const std::array map{(e * d - f * c) / determinant, (f * a - e * b) / determinant, (g * d - h * c) / determinant,
+                         (h * a - g * b) / determinant};
+    double squares = 0;
+    for (const double entry : map) {
+      squares += entry * entry;
+    }
+    const double shape = 2 * (map[0] * map[3] - map[1] * map[2]) / squares;
+    least = std::min(least, shape);
+    sum += shape;
+  }
+  CHECK(result.min_relative_shape == Approx(least));
+  CHECK(result.mean_relative_shape == Approx(sum / static_cast<double>(mesh.triangles.size())));
+}
+
+TEST_CASE("single precision and float points follow as well") {
+  const Rotor rotor;
+  SmoothingOptions options = smoothing_layers();
+  options.precision = Precision::single_precision;
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), options);
+  std::vector<float> xy;
+  for (const Point2<double> p : rotor.at(30 * degree)) {
+    xy.insert(xy.end(), {static_cast<float>(p.x), static_cast<float>(p.y)});
+  }
+  const FollowResult result = moving.follow(xy_points(xy));
+  CHECK(result.smoothing.inverted == 0);
+  CHECK(quality(xy_points(xy), rotor.mesh.indices()).inverted == 0);
+}
+
+TEST_CASE("a mesh that moves refuses what it cannot follow, and leaves the points as they were") {
+  const Mesh mesh = test_meshes::jittered_grid(5, 5, 0.2, 1);
+  MovingMesh moving(mesh.points, mesh.indices());
+  Points few(3);
+  CHECK_THROWS_AS(moving.follow(few), std::invalid_argument);
+  Points broken = mesh.points;
+  broken[0].x = std::numeric_limits<double>::quiet_NaN();
+  const Points before = broken;
+  CHECK_THROWS_AS(moving.follow(broken), MeshError);
+  CHECK(same_bits(broken[1], before[1]));
+
+  SmoothingOptions sized = moving_options();
+  const std::vector<double> lengths(mesh.points.size(), 1.0);
+  sized.mean_ratio.target_lengths = lengths;
+  CHECK(says(refusal([&] { (void)MovingMesh(mesh.points, mesh.indices(), sized); }), "sizes of its reference"));
+  Constraints slides;
+  slides.slide.along = Slide::straight;
+  CHECK(says(refusal([&] { (void)MovingMesh(mesh.points, mesh.indices(), slides); }), "without sliding"));
+
+  MovingMesh other = std::move(moving);
+  CHECK_THROWS_AS(moving.held(), std::logic_error);  // NOLINT(bugprone-use-after-move,clang-analyzer-cplusplus.Move)
+  CHECK(other.held().size() == mesh.points.size());
+}
+
+TEST_CASE(
+    "cancelled before the first sweep, a mesh that moves leaves the points as they were, and follows afterwards") {
+  const Rotor rotor;
+  bool is_unwanted = false;
+  SmoothingOptions options = smoothing_layers();
+  options.cancel = [&] { return is_unwanted; };
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), options);
+  Points points = rotor.at(30 * degree);
+  const Points before = points;
+  is_unwanted = true;
+  const FollowResult cancelled = moving.follow(points);
+  CHECK(cancelled.smoothing.stop_reason == StopReason::cancelled);
+  CHECK(cancelled.smoothing.inverted == -1);
+  CHECK(std::isnan(cancelled.min_relative_shape));
+  CHECK((points == before));
+  is_unwanted = false;
+  CHECK(moving.follow(points).smoothing.inverted == 0);
+}
+
+}  // namespace trismooth::moving_mesh_test
