@@ -56,6 +56,7 @@
 #include "trismooth/cuda/device_mesh.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/memory_pool.h"
+#include "trismooth/cuda/moving_mesh.h"
 #endif
 #if __has_include("trismooth/mpi/plan.h") && __has_include(<mpi.h>)
 #include "trismooth/mpi/local_mesh.h"
