@@ -64,7 +64,7 @@ struct NamedSet {
 inline constexpr std::string_view points_of_geometry = "gmsh:points";
 
 /// A mesh as its file states it: every point, cell and array in the file's order, nothing interpreted. Readers
-/// guarantee finite coordinates, indices within range and arrays of the right length.
+/// guarantee what require_sound() asks for.
 struct MeshDocument {
   FileFormat format = FileFormat::off;
   std::vector<double> points;                   ///< x, y, z of every point; exact, also where the file holds float32
@@ -106,5 +106,10 @@ struct MeshDocument {
   /// stores any of x, y, z so.
   ScalarType moved_point_type() const { return has_float32_axis ? ScalarType::float32 : point_type; }
 };
+
+/// Throws MeshError, with what breaks it, unless the document keeps the rules that readers keep: three finite
+/// coordinates a point, cells as CellList says, numbers of points and cells within range, and of every array, label
+/// array and point label one a point or cell. For documents that a program has made or changed. Complexity: linear.
+void require_sound(const MeshDocument& document);
 
 }  // namespace trismooth

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/errors.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/letter_case.h"
@@ -187,6 +188,11 @@ WrittenAside write_mesh_aside(const std::filesystem::path& path, const MeshDocum
 
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
                 const FileOptions& options) {
+  try {
+    require_sound(document);
+  } catch (const MeshError& error) {
+    throw WriteError(shown_output(path), error.what());
+  }
   write_mesh_aside(path, document, added, options).commit();
 }
 

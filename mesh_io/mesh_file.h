@@ -46,7 +46,8 @@ struct AddedArrays {
 /// any failure. A target that is not a regular file (a device, a pipe) is written directly, and so is `-`, standard
 /// output. Where the last extension is ".gz", what is written is compressed, by gzip at level 6, without a name and a
 /// time: the same mesh gives the same bytes.
-/// Throws WriteError, also where there is no output_format(), and where an array has not a row for every point or cell.
+/// Throws WriteError, also where there is no output_format(), where an array has not a row for every point or cell, and
+/// for a document that require_sound() refuses.
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,
                 const FileOptions& options);
 

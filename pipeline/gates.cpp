@@ -181,6 +181,11 @@ Gate parse_gate(std::string_view text) {
 
 GateOutcome check_gate(const Gate& gate, const QualityReport& report, const std::optional<QuadraticQuality>& quadratic,
                        const DeformedStep* step) {
+  if (needs_size_ratio(gate) && !report.size_ratio) {
+    throw std::invalid_argument(fmt::format(
+        "gate {}: the report has no {}, which takes a while to find; PipelineOptions::size_ratio = true asks for it",
+        gate_text(gate), size_ratio_info.name));
+  }
   const double value = gate_value(gate.name, report, quadratic, step);
   return {gate, value, holds(value, gate.comparison, gate.bound)};
 }

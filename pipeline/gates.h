@@ -64,7 +64,8 @@ bool needs_size_ratio(const Gate& gate);
 double gate_value(std::string_view name, const QualityReport& report,
                   const std::optional<QuadraticQuality>& quadratic = std::nullopt, const DeformedStep* step = nullptr);
 
-/// Whether the report meets the gate, with what gate_value() takes. A value that is not a number meets none.
+/// Whether the report meets the gate, with what gate_value() takes. A value that is not a number meets none. Throws
+/// std::invalid_argument where gate_value() does, and where the gate needs_size_ratio() and the report has none.
 GateOutcome check_gate(const Gate& gate, const QualityReport& report,
                        const std::optional<QuadraticQuality>& quadratic = std::nullopt,
                        const DeformedStep* step = nullptr);

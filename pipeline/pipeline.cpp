@@ -125,6 +125,15 @@ class DocumentRun {
   RunState& run_ = mesh_.state();
 };
 
+/// Options for a mesh in memory. Throws MeshError where require_sound() does.
+PipelineOptions options_for(const MeshDocument& document, PipelineOptions options) {
+  require_sound(document);
+  if (options.input.empty()) {
+    options.input = "the mesh";
+  }
+  return options;
+}
+
 }  // namespace
 
 void require_known_formats(const PipelineOptions& options) {
@@ -168,14 +177,14 @@ PipelineResult run_on_document(MeshDocument& document, const PipelineOptions& op
 }
 
 PipelineResult smooth_document(MeshDocument& document, const PipelineOptions& options) {
-  PipelineOptions own = options;
+  PipelineOptions own = options_for(document, options);
   own.output = std::filesystem::path("document").replace_extension(extensions_of(document.format).front());
   own.format = document.format;
   return DocumentRun(own).run_on(document);
 }
 
 PipelineResult check_document(MeshDocument& document, const PipelineOptions& options) {
-  PipelineOptions own = options;
+  PipelineOptions own = options_for(document, options);
   own.output.reset();
   return DocumentRun(own).run_on(document);
 }

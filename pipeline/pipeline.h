@@ -213,13 +213,16 @@ void require_known_formats(const PipelineOptions& options);
 /// std::invalid_argument for options that do not fit the input, Cancelled.
 PipelineResult run_pipeline(const PipelineOptions& options);
 
-/// Runs the stages on a mesh that has been read: all but reading and writing. `document` is as it was wherever this
-/// throws, else its points, and the point arrays that follow the mesh, are those of the result: write_mesh() writes
-/// them. `options.input` names the mesh in messages; `options.output` and `options.format` mean nothing: what follows
-/// the mesh is chosen for the format that the mesh was read from. The result has no hash, time or loss of writing.
+/// Runs the stages on a mesh that has been read, or that the program has made: all but reading and writing. Throws what
+/// run_pipeline() does, and MeshError for a document that require_sound() refuses. `document` is as it was wherever
+/// this throws, else its points, and the point arrays that follow the mesh, are those of the result: write_mesh()
+/// writes them. `options.input` names the mesh in messages ("the mesh" where it is empty); `options.output` and
+/// `options.format` mean nothing: what follows the mesh is chosen for the format that the mesh was read from. The
+/// result has no hash, time or loss of writing.
 PipelineResult smooth_document(MeshDocument& document, const PipelineOptions& options);
 
-/// The quality of a mesh that has been read, by the stages up to the smoothing.
+/// The quality of a mesh that has been read or made, by the stages up to the smoothing. Throws MeshError for a document
+/// that require_sound() refuses, and else what run_pipeline() does of reading and checking.
 PipelineResult check_document(MeshDocument& document, const PipelineOptions& options);
 
 }  // namespace trismooth

@@ -86,6 +86,14 @@ class MeshPlan::Implementation {
     return result;
   }
 
+  std::vector<std::uint8_t> fixed() {
+    if (flat_) {
+      return flat_->fixed();
+    }
+    analyse();
+    return analysed_->fixed();
+  }
+
  private:
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(mesh_.vertices); }
 
@@ -225,6 +233,10 @@ MeshPlan::MeshPlan(const ConstOpenMeshView& mesh, const MeshConstraints& constra
 MeshPlan::MeshPlan(MeshPlan&&) noexcept = default;
 MeshPlan& MeshPlan::operator=(MeshPlan&&) noexcept = default;
 MeshPlan::~MeshPlan() = default;
+
+std::vector<std::uint8_t> MeshPlan::fixed() const {
+  return not_moved_from(implementation_).fixed();
+}
 
 SmoothingResult MeshPlan::smooth_view(const OpenMeshView& mesh) {
   Implementation& plan = not_moved_from(implementation_);

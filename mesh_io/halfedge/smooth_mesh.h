@@ -2,7 +2,9 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "trismooth/mesh_io/halfedge/mesh_constraints.h"
 #include "trismooth/mesh_io/halfedge/open_mesh_view.h"
@@ -64,6 +66,11 @@ class [[nodiscard]] MeshPlan {
   SmoothingResult smooth(Mesh& mesh) {
     return smooth_view(open_mesh::view_of<OpenMeshView>(mesh));
   }
+
+  /// Why each vertex is held, deleted ones counted: bits of namespace hold (base/hold.h), 0 where nothing holds it.
+  /// What the status of the mesh holds is `named`, as is what is flat on purpose, which is known after the first
+  /// smooth(). Throws std::logic_error where the plan has been moved from. Complexity: linear.
+  [[nodiscard]] std::vector<std::uint8_t> fixed() const;
 
  private:
   friend SmoothingResult smooth_open_mesh(const OpenMeshView& mesh, const MeshConstraints& constraints,

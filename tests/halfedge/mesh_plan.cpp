@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // plan(mesh) and quality(mesh).
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "trismooth/base/errors.h"
+#include "trismooth/base/hold.h"
 #include "trismooth/mesh_io/halfedge/mesh_quality.h"
 #include "trismooth/mesh_io/halfedge/smooth_mesh.h"
 #include "trismooth/mesh_io/halfedge/triangle_mesh.h"
@@ -105,6 +108,43 @@ TEST_CASE("a plan follows a mesh out of the plane of two axes and back, and outl
     CHECK(plan.smooth(mesh).moved_vertices > 0);
     CHECK(numbers_in(mesh) == numbers_in(other));
   }
+}
+
+TEST_CASE("a plan says why it holds a vertex, in whatever plane, before the first smoothing and after it") {
+  const Sample sample = shuffled_grid(12, 34);
+  const bool is_tilted = GENERATE(false, true);
+  auto mesh = mesh_of<FullMesh>(sample, [&](const Point3& p) { return is_tilted ? tilted(p) : p; });
+  std::vector<std::int32_t> regions;
+  for (const auto& t : sample.triangles) {
+    regions.push_back(sample.xyz[3 * t[0]] < 5 ? 1 : 2);
+  }
+  FullMesh::VertexHandle locked;
+  for (const auto v : mesh.vertices()) {
+    if (!mesh.is_boundary(v)) {
+      locked = v;
+    }
+  }
+  mesh.status(locked).set_locked(true);
+  auto plan = trismooth::plan(mesh, {.regions = regions});
+  for (const bool is_smoothed : {false, true}) {
+    INFO("smoothed: " << is_smoothed);
+    const std::vector<std::uint8_t> reasons = plan.fixed();
+    REQUIRE(reasons.size() == mesh.n_vertices());
+    for (const auto v : mesh.vertices()) {
+      const unsigned why = reasons[static_cast<std::size_t>(v.idx())];
+      std::set<std::int32_t> around;
+      for (const auto face : mesh.vf_range(v)) {
+        around.insert(regions[static_cast<std::size_t>(face.idx())]);
+      }
+      INFO("vertex " << v.idx());
+      CHECK(((why & trismooth::hold::boundary) != 0) == mesh.is_boundary(v));
+      CHECK(((why & trismooth::hold::interface) != 0) == (around.size() > 1));
+      CHECK(((why & trismooth::hold::named) != 0) == (v == locked));
+    }
+    plan.smooth(mesh);
+  }
+  const auto moved = std::move(plan);
+  CHECK_THROWS_AS(plan.fixed(), std::logic_error);
 }
 
 TEST_CASE("a plan of which a component is turned over smooths it so") {

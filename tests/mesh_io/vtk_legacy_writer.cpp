@@ -210,8 +210,10 @@ TEST_CASE("legacy VTK: a document that has not the points and cells of its file 
     MeshDocument changed = document;
     changed.points.resize(3 * points);
     changed.points.shrink_to_fit();
-    CHECK(message(changed).find("has 9 points and 7 cells, the mesh to write has " + std::to_string(points)) !=
-          std::string::npos);
+    // Without some points, cells name points that are not there.
+    const std::string expected =
+        points < 9 ? " names vertex " : "has 9 points and 7 cells, the mesh to write has 10 and 7";
+    CHECK(message(changed).find(expected) != std::string::npos);
   }
   MeshDocument changed = document;
   changed.points.pop_back();
