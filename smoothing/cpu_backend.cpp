@@ -425,8 +425,8 @@ class CpuSmoother final : public PreparedSmoother {
     MeshUntangling done;
     {
       std::optional<CallLimit> sooner;
-      if (const CallLimit* const limit = CallLimit::current(); limit != nullptr && !limit->is_lifted()) {
-        sooner.emplace(options_.time_limit_seconds - guard_takes, options_.cancel, CallLimit::begin_of_current());
+      if (CallLimit* const limit = CallLimit::current(); limit != nullptr && !limit->is_lifted()) {
+        sooner.emplace(options_.time_limit_seconds - guard_takes, *limit);
       }
       done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
     }

@@ -31,7 +31,8 @@ struct FollowResult {
   std::vector<std::array<std::int32_t, 4>> crossings;
   /// Vertices around which the mesh lies over itself and does not in the reference, ascending: where the triangles
   /// around one go round it more than once, as where a hole has been turned inside out. The first most_listed. Where
-  /// there are none, nor crossings or inverted triangles, a mesh lies over itself nowhere that the reference does not.
+  /// there are none, nor crossings or inverted triangles, no component lies over itself where the reference does not;
+  /// nobody looks whether one lies wholly inside another.
   std::vector<std::int32_t> overlaps;
   /// The triangles that are inverted or degenerate, ascending; the first most_listed.
   std::vector<std::int32_t> invalid;

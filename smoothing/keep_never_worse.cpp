@@ -2,8 +2,10 @@
 #include "trismooth/smoothing/keep_never_worse.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <span>
 #include <stdexcept>
@@ -12,11 +14,13 @@
 #include <vector>
 
 #include "trismooth/base/box.h"
+#include "trismooth/base/errors.h"
 #include "trismooth/base/heights.h"
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
+#include "trismooth/base/text/digits.h"
 #include "trismooth/smoothing/commit.h"
 #include "trismooth/smoothing/invalid_triangles.h"
 #include "trismooth/smoothing/rings/analysed_mesh.h"
@@ -41,6 +45,19 @@ std::vector<Point2<double>> read(const ConstPointView& points, const AnalysedMes
     require_one_height(points, read, [&mesh] { return mesh.fixed(); });
   }
   return read;
+}
+
+/// What moves keeps its height.
+void require_same_heights(const ConstPointView& before, const ConstPointView& after) {
+  if (before.components() != 3 || after.components() != 3) {
+    return;
+  }
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    if (std::bit_cast<std::uint64_t>(before.z(v)) != std::bit_cast<std::uint64_t>(after.z(v))) {
+      throw MeshError("vertex " + std::to_string(v) + " has z " + shortest_text(after.z(v)) + ", and had " +
+                      shortest_text(before.z(v)) + " before: what has moved along x and y alone can be looked at");
+    }
+  }
 }
 
 /// What has gone so many times the mesh's extent out of it goes back: in a frame that had it in view as well nothing
@@ -110,6 +127,7 @@ KeptMoves keep_never_worse(const ConstPointView& before, const PointView& after,
   AnalysedMesh mesh(static_cast<std::int32_t>(vertex_count), listed, constraints, workers);
   std::vector<Point2<double>> points = read(before, mesh, workers);
   std::vector<Point2<double>> moved = read(after, mesh, workers);
+  require_same_heights(before, after);
   KeptMoves kept;
   put_back(points, moved, mesh.fixed(), kept);
   const LocalPoints local = entered(frame_of_both(points, moved, mesh.fixed()), points);

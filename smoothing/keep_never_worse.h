@@ -23,17 +23,19 @@ struct KeptMoves {
 
 /// The never-worse guard of smooth(), for vertices that something else has moved: an optimiser, a user, another tool.
 /// `before` has the points as they were, `after` where they are now: one for every vertex each, of the same type of
-/// number; `triangles` and `constraints` are those of smooth(), and so are the vertices that are held. Vertices go back
-/// to where they were, in place, their numbers bit by bit, until this holds: what is held has not moved; no triangle
-/// that was valid is inverted or degenerate; and none is both worse than it was and worse than the worst triangle
-/// around the moved vertices was. Worse is a smaller shape (quality/triangle_quality.h). What smooth() gives passes as
-/// it is. What has gone 2^100 times the mesh's extent out of it goes back in any case.
+/// number; `triangles` and `constraints` are those of smooth(), and so are the vertices that are held, but for those
+/// that smooth() keeps for a layer. Vertices go back to where they were, in place, their numbers bit by bit, until this
+/// holds: what is held has not moved; no triangle that was valid is inverted or degenerate; and none is both worse than
+/// it was and worse than the worst triangle around the moved vertices was. Worse is a smaller shape
+/// (quality/triangle_quality.h). What smooth() gives passes as it is. What has gone 2^100 times the mesh's extent out
+/// of it goes back in any case.
 ///
 /// The caller owns all arrays; `after` alone is written, and only when nothing can be thrown any more. With three
-/// numbers a point the third one is its height, as in smooth(). `threads`: 0 is one for each core; the result does not
-/// depend on it. Throws MeshError for triangles that are no mesh, for coordinates that are not finite and for heights
-/// that differ; std::invalid_argument for numbers of points that differ, types that differ, constraints that do not
-/// fit, or where vertices are to slide. Complexity: linear, and what goes back times its logarithm in each round.
+/// numbers a point the third one is its height, as in smooth(), and the same before and after. `threads`: 0 is one for
+/// each core; the result does not depend on it. Throws MeshError for triangles that are no mesh, for coordinates that
+/// are not finite and for heights that differ, or have changed; std::invalid_argument for numbers of points that
+/// differ, types that differ, constraints that do not fit, or where vertices are to slide. Complexity: linear, and what
+/// goes back times its logarithm in each round.
 KeptMoves keep_never_worse(const ConstPointView& before, const PointView& after, const IndexView& triangles,
                            const Constraints& constraints = {}, int threads = 0);
 

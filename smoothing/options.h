@@ -209,7 +209,8 @@ struct SmoothingOptions {
   double tolerance = 1e-6;
   /// How long a call of smooth() may take, all in all: what it finds out about the mesh, untangling, targets, sweeps
   /// and guard. Sweeps end early enough for the guard, which a first call can only guess at; where there is no time for
-  /// one, nothing moves. What an untangling has mended by then is kept. Over parts and ranks the clock is looked at
+  /// one, nothing moves. What an untangling has mended by then is kept. A sweep that has begun is made whole, which
+  /// matters where a proposal takes long; a cancel waits for it as well. Over parts and ranks the clock is looked at
   /// between sweeps and before the first one. A plan() has no limit, nor what its first smooth() makes ready for later
   /// ones.
   double time_limit_seconds = std::numeric_limits<double>::infinity();

@@ -11,7 +11,8 @@
 namespace trismooth {
 
 /// A free vertex and the triangles around it, as a method of the caller's own sees them in a sweep. Positions are those
-/// of the moment, in the caller's coordinates (to the last digits of them: they have been through the local frame).
+/// of the moment, in the caller's coordinates (to the last digits of them: they have been through the local frame); of
+/// a mesh in a tilted plane of space, which an OpenMesh mesh or a file may have, along two axes in that plane.
 struct VertexNeighbourhood {
   std::int32_t vertex = 0;    ///< its number
   Point2<double> position{};  ///< where it is

@@ -120,9 +120,9 @@ struct SmoothingResult {
   std::int64_t free_vertices = 0;      ///< vertices that nothing holds fixed, nor to a line
   /// Triangles that are inverted in the result, and those without area: of all, with a free vertex or not, each as its
   /// component is oriented; of six nodes the corners. With the guard none that was valid is among them; where nothing
-  /// is untangled (`untangling` is empty) those of the input nearly all are. Both are -1 where nobody has counted them:
-  /// the call was over before the first sweep, so that nothing has moved, and all else that it had not found out by
-  /// then is 0 or empty.
+  /// is untangled (`untangling` is empty) sweeps mend some of the input's and leave others. Both are -1 where nobody
+  /// has counted them: the call was over before the first sweep, so that nothing has moved, and all else that it had
+  /// not found out by then is 0 or empty.
   std::int64_t inverted = 0;
   std::int64_t degenerate = 0;
   std::int32_t colours = 0;                    ///< of Form B; 0 for Form A

@@ -14,6 +14,9 @@ thread_local CallLimit* in_force = nullptr;
 CallLimit::CallLimit(double seconds, std::function<bool()> cancel, Clock::time_point begin)
     : most_seconds_(seconds), cancel_(std::move(cancel)), begin_(begin), outer_(std::exchange(in_force, this)) {}
 
+CallLimit::CallLimit(double seconds, CallLimit& whole)
+    : most_seconds_(seconds), whole_(&whole), begin_(whole.begin_), outer_(std::exchange(in_force, this)) {}
+
 CallLimit::~CallLimit() {
   in_force = outer_;
 }
@@ -33,10 +36,20 @@ std::optional<CallEnd> CallLimit::end() {
   if (std::chrono::duration<double>(now - begin_).count() >= most_seconds_) {
     return CallEnd::time_is_up;
   }
+  return is_cancelled(now) ? std::optional(CallEnd::cancelled) : std::nullopt;
+}
+
+bool CallLimit::is_cancelled(Clock::time_point now) {
+  if (whole_ != nullptr) {
+    return whole_->is_cancelled(now);
+  }
+  if (is_cancelled_.load(std::memory_order_relaxed)) {
+    return true;
+  }
   if (cancel_ && std::this_thread::get_id() == thread_ && now - asked_ >= between_questions) {
     ask(now);
   }
-  return is_cancelled_.load(std::memory_order_relaxed) ? std::optional(CallEnd::cancelled) : std::nullopt;
+  return is_cancelled_.load(std::memory_order_relaxed);
 }
 
 void CallLimit::ask(Clock::time_point now) {

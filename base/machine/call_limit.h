@@ -31,6 +31,9 @@ class CallLimit {
   /// `seconds`: from `begin` on, may be infinite. `cancel`: asked on this thread, every few milliseconds; true: the
   /// call is over. Empty: nobody is asked. What it throws leaves the loop that asked.
   CallLimit(double seconds, std::function<bool()> cancel, Clock::time_point begin = Clock::now());
+  /// Another limit of time for a part of the call of `whole`, from the beginning of that call. The caller is asked by
+  /// `whole`, which remembers what he says. It is in force on this thread, and stays until this has gone.
+  CallLimit(double seconds, CallLimit& whole);
   CallLimit(const CallLimit&) = delete;
   CallLimit& operator=(const CallLimit&) = delete;
   ~CallLimit();
@@ -96,9 +99,11 @@ class CallLimit {
   static constexpr std::chrono::milliseconds between_questions{5};
 
   void check_unlifted();
+  bool is_cancelled(Clock::time_point now);
   void ask(Clock::time_point now);
 
   double most_seconds_;
+  CallLimit* whole_ = nullptr;
   std::function<bool()> cancel_;
   std::thread::id thread_ = std::this_thread::get_id();
   Clock::time_point begin_;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/moved_from.h"
@@ -32,6 +33,13 @@ const SmoothingOptions& checked(const SmoothingOptions& options) {
   return options;
 }
 
+/// What the caller's own functions do meanwhile is not part of the call.
+KeptConstraints asked_for(const OpenMesh::PolyConnectivity& mesh, const FlatMesh& flat,
+                          const MeshConstraints& constraints) {
+  const CallLimit::Hidden hidden;
+  return flat_constraints(mesh, flat, constraints);
+}
+
 }  // namespace
 
 /// Two ways lead to the result: a plan of flat arrays where the points can be smoothed where they are, and in all other
@@ -43,7 +51,7 @@ class MeshPlan::Implementation {
       : options_(checked(options)),
         workers_(options.threads),
         mesh_(flat_mesh(*view.mesh)),
-        constraints_(flat_constraints(*view.mesh, mesh_, constraints)) {
+        constraints_(asked_for(*view.mesh, mesh_, constraints)) {
     check_mesh_size(mesh_.vertices, std::ssize(mesh_.triangles));
     check_constraints(constraints_.view(), vertex_count(), std::ssize(mesh_.triangles));
     const Constraints held = constraints_.view();

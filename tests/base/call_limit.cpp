@@ -144,4 +144,26 @@ TEST_CASE("a limit counts from the moment that it is given") {
   CHECK(CallLimit::is_over());
 }
 
+TEST_CASE("a part of a call has a time of its own, and what the caller says in it is said of the whole call") {
+  int questions = 0;
+  CallLimit whole(
+      no_limit,
+      [&] {
+        ++questions;
+        return true;
+      },
+      CallLimit::Clock::now() - std::chrono::seconds(10));
+  {
+    CallLimit soon(9, whole);
+    CHECK(soon.end() == CallEnd::time_is_up);
+  }
+  CHECK(questions == 0);
+  {
+    CallLimit late(20, whole);
+    CHECK(late.end() == CallEnd::cancelled);
+  }
+  CHECK(whole.end() == CallEnd::cancelled);
+  CHECK(questions == 1);
+}
+
 }  // namespace trismooth::call_limit_test

@@ -289,7 +289,7 @@ std::vector<GrowthCase> fem_file_cases() {
   }
   for (const char* const output : {"msh", "vtu"}) {
     cases.push_back(file_case("entities", 100, "msh", output, &msh_entities));
-    cases.push_back(file_case("cells in many groups", 100, "msh", output, &msh_repeated_elements));
+    cases.push_back(file_case("cells in many groups", 400, "msh", output, &msh_repeated_elements));
     cases.push_back(file_case("data", 50, "msh", output, &msh_data));
   }
   for (const char* const output : {"mesh", "vtu", "msh"}) {

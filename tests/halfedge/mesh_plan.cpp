@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -10,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -145,6 +147,30 @@ TEST_CASE("a plan says why it holds a vertex, in whatever plane, before the firs
   }
   const auto moved = std::move(plan);
   CHECK_THROWS_AS(plan.fixed(), std::logic_error);
+}
+
+TEST_CASE("what a function of the constraints calls has limits of its own, and none of the smoothing's") {
+  const Sample sample = shuffled_grid(12, 35);
+  auto mesh = mesh_of<FullMesh>(sample);
+  auto other = mesh;
+  SmoothingOptions unwanted;
+  unwanted.cancel = [] { return true; };
+  bool is_over = false;
+  SmoothingOptions options;
+  options.cancel = [&is_over] { return is_over; };
+  int calls = 0;
+  const auto fixed = [&](FullMesh::VertexHandle) {
+    if (++calls == 1) {
+      CHECK(trismooth::smooth(other, unwanted).stop_reason == trismooth::StopReason::cancelled);
+      is_over = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));  // so that the next look asks
+      CHECK(trismooth::quality(other).triangles == std::ssize(sample.triangles));
+    }
+    return false;
+  };
+  const auto result = trismooth::smooth(mesh, {.fixed = fixed}, options);
+  CHECK(calls == static_cast<int>(mesh.n_vertices()));
+  CHECK(result.stop_reason == trismooth::StopReason::cancelled);
 }
 
 TEST_CASE("a plan of which a component is turned over smooths it so") {

@@ -126,6 +126,12 @@ TEST_CASE("points of float and of three numbers are taken; their heights stay") 
   after[0] = {9.0F, 0.0F, 7.0F};
   CHECK(keep_never_worse(before, after, star.indices()).reverted.size() == 1);
   CHECK(after == before);
+  for (auto& point : after) {
+    point[2] = 8.0F;
+  }
+  const auto lifted = after;
+  CHECK_THROWS_AS(keep_never_worse(before, after, star.indices()), MeshError);
+  CHECK(after == lifted);
 }
 
 TEST_CASE("moves that cannot be judged are refused, and nothing is written") {

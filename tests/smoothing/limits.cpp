@@ -158,6 +158,31 @@ TEST_CASE("cancelled at any time a call leaves a mesh that is nowhere worse, and
   }
 }
 
+TEST_CASE("who has said once that nobody wants the call any more is not asked again, in whatever phase") {
+  const Mesh mesh = test_meshes::tangled(12, 4);
+  const auto questions_of = [&mesh](int last) {
+    int questions = 0;
+    SmoothingOptions options;
+    options.threads = 1;
+    options.untangle = Untangle::on;
+    options.max_sweeps = 4;
+    options.cancel = [&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(6));  // so that every look asks
+      return ++questions == last;
+    };
+    std::vector<double> xy = mesh.xy();
+    const SmoothingResult result = smooth(xy_points(xy), mesh.indices(), options);
+    CHECK((result.stop_reason == StopReason::cancelled) == (questions == last));
+    return questions;
+  };
+  const int all = questions_of(0);
+  REQUIRE(all > 8);
+  for (int last = 1; last <= all; last += std::max(1, all / 16)) {
+    CAPTURE(last, all);
+    CHECK(questions_of(last) == last);
+  }
+}
+
 TEST_CASE("a callback may smooth another mesh, which has the limits of its own options") {
   const Mesh other = test_meshes::jittered_grid(9, 9, 0.3, 5);
   std::vector<double> expected = other.xy();
