@@ -37,9 +37,8 @@ void add_displacement_options(CLI::App& command, Deformation& deformation) {
             deformation.is_series = true;
             return true;
           },
-          "Such a file for each step; OUTPUT gets the number of the step: out.vtu is out_1.vtu and on. All "
-          "displacements "
-          "are from INPUT. Stands last")
+          "Such a file for each step; OUTPUT gets the number of the step: out.vtu is out_1.vtu and on, out_001.vtu "
+          "where there are hundreds. All displacements are from INPUT. Stands last")
       ->option_text("FILE...")
       ->expected(1, CLI::detail::expected_max_vector_size)
       ->allow_extra_args()

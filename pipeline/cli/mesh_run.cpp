@@ -180,7 +180,8 @@ void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
   require_own_meshes(options);
   for (const std::filesystem::path& step : options.deformation.value_or(Deformation{}).steps) {
     if (std::error_code error; !std::filesystem::exists(step, error)) {
-      throw ReadError(step, "is a step of the boundary, and there is no such file; nothing has been written");
+      throw ReadError(step,
+                      "is to have displacements of the boundary, and there is no such file; nothing has been written");
     }
   }
   require_each_once(settings.reports);
