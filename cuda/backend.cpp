@@ -183,52 +183,55 @@ class TriangleSmoother final : public PreparedSmoother {
   Plan plan_;
 };
 
-/// A smoother of one device, whichever is current.
-class SmootherOnDevice final : public PreparedSmoother {
+/// What works on one device, whichever is current.
+template <class Work>
+class OnDevice : public Work {
  public:
-  SmootherOnDevice(int device, std::unique_ptr<PreparedSmoother> smoother)
-      : device_(device), smoother_(std::move(smoother)) {}
-  ~SmootherOnDevice() override { after_.begin(device_); }
+  OnDevice(int device, std::unique_ptr<Work> work) : device_(device), work_(std::move(work)) {}
+  ~OnDevice() override { after_.begin(device_); }
+
+ protected:
+  template <class Call>
+  auto there(const Call& call) const {
+    const DeviceScope scope(device_);
+    return call(*work_);
+  }
+
+ private:
+  DeviceAtEnd after_;  ///< the last to go
+  int device_;
+  std::unique_ptr<Work> work_;
+};
+
+class SmootherOnDevice final : public OnDevice<PreparedSmoother> {
+ public:
+  using OnDevice::OnDevice;
 
   SmoothingResult smooth(std::span<Point2<double>> points, Storage storage,
                          const std::optional<LocalFrame>& frame) override {
-    const DeviceScope scope(device_);
-    return smoother_->smooth(points, storage, frame);
+    return there([&](PreparedSmoother& smoother) { return smoother.smooth(points, storage, frame); });
   }
   std::vector<std::uint8_t> fixed() const override {
-    const DeviceScope scope(device_);
-    return smoother_->fixed();
+    return there([](const PreparedSmoother& smoother) { return smoother.fixed(); });
   }
-
- private:
-  DeviceAtEnd after_;  ///< the last to go
-  int device_;
-  std::unique_ptr<PreparedSmoother> smoother_;
 };
 
-/// A follower on one device, whichever is current.
-class FollowerOnDevice final : public Follower {
+class FollowerOnDevice final : public OnDevice<Follower> {
  public:
-  FollowerOnDevice(int device, std::unique_ptr<Follower> follower) : device_(device), follower_(std::move(follower)) {}
-  ~FollowerOnDevice() override { after_.begin(device_); }
+  using OnDevice::OnDevice;
 
   void follow(std::span<Point2<double>> points, Storage storage, MovingStart start, FollowResult& result) override {
-    const DeviceScope scope(device_);
-    follower_->follow(points, storage, start, result);
+    there([&](Follower& follower) { follower.follow(points, storage, start, result); });
+  }
+  void take_back() override {
+    there([](Follower& follower) { follower.take_back(); });
   }
   void go_on_from(std::vector<Point2<double>> points) override {
-    const DeviceScope scope(device_);
-    follower_->go_on_from(std::move(points));
+    there([&](Follower& follower) { follower.go_on_from(std::move(points)); });
   }
   std::vector<Point2<double>> points() const override {
-    const DeviceScope scope(device_);
-    return follower_->points();
+    return there([](const Follower& follower) { return follower.points(); });
   }
-
- private:
-  DeviceAtEnd after_;  ///< the last to go
-  int device_;
-  std::unique_ptr<Follower> follower_;
 };
 
 /// On a device; none: on whichever is current.

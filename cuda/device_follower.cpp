@@ -111,13 +111,18 @@ void DeviceFollower::follow(Storage storage, MovingStart start, FollowResult& re
   look_at(result);
   std::swap(previous_, now_);
   extent_.find(previous_.data(), count_, held_.data());
-  last_ = {extent_.extent().frame, std::move(of_held)};
+  before_last_ = std::exchange(last_, {extent_.extent().frame, std::move(of_held)});
+}
+
+void DeviceFollower::take_back() {
+  std::swap(previous_, now_);
+  std::swap(last_, before_last_);
 }
 
 void DeviceFollower::carry(Storage storage, MovingStart start, std::vector<Point2<double>>& of_held,
                            FollowResult& result) {
   // Without the free vertices carried along there is no mesh to end with.
-  const CallLimit patient(std::numeric_limits<double>::infinity(), options_.cancel, CallLimit::begin_of_current());
+  const CallLimit patient(std::numeric_limits<double>::infinity(), *CallLimit::current());
   extent_of_held_.find(stored_.data(), count_, held_alone_.data());
   of_held = points_of_vertices(context_, carrier_.held(), stored_.data());
   const Extent extent = extent_of_held_.extent();

@@ -42,6 +42,7 @@ class DeviceFollower final : public Follower {
   void follow_on_device(double* xy, Storage storage, MovingStart start, FollowResult& result);
   void follow_on_device(float* xy, Storage storage, MovingStart start, FollowResult& result);
 
+  void take_back() override;
   void go_on_from(std::vector<Point2<double>> points) override;
   std::vector<Point2<double>> points() const override;
 
@@ -76,13 +77,14 @@ class DeviceFollower final : public Follower {
   DeviceBuffer<Point2<double>> rest_local_;
   DeviceBuffer<Point2<double>> previous_;
   DeviceBuffer<Point2<double>> stored_;  ///< the caller's
-  DeviceBuffer<Point2<double>> now_;     ///< what is made of them
+  DeviceBuffer<Point2<double>> now_;     ///< what is made of them; between calls the result before the last one
   DeviceBuffer<Point2<double>> local_;
   DeviceBuffer<Point2<double>> was_;  ///< where they are carried on from, in units of those
   DeviceCarrier carrier_;
   ExtentFinder extent_of_held_;
   ExtentFinder extent_;
   Last last_;
+  Last before_last_;
   std::unique_ptr<DeviceSmoother> smoother_;
   std::optional<HostUntangling> untangling_;
 };

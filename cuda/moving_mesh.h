@@ -46,6 +46,11 @@ class [[nodiscard]] MovingMesh {
   /// Of coordinates of float, aligned to 8 bytes, to which free vertices are rounded. Throws as for double.
   FollowResult follow(float* xy, MovingStart start = MovingStart::reference);
 
+  /// Has the last step not have happened, as where a solver repeats a time step with a smaller one: the last result is
+  /// again the one before it. Throws std::logic_error where there is no such step: none yet, one that its limits ended
+  /// before the first sweep, one that was taken back, or go_on_from() since. Complexity: constant.
+  void take_back();
+
   /// Has these points, in memory of the host, be the last result: see trismooth::MovingMesh::go_on_from(). Throws
   /// std::invalid_argument for a wrong number of points, MeshError for a coordinate that is not finite; nothing has
   /// changed then. Complexity: linear.

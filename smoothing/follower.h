@@ -41,6 +41,8 @@ class Follower {
   /// where the call is over before the first sweep, too; the points are untouched then.
   virtual void follow(std::span<Point2<double>> points, Storage storage, MovingStart start, FollowResult& result) = 0;
 
+  /// The last result, of a follow() that has come to its end, is the one before it again. Called once after each.
+  virtual void take_back() = 0;
   /// Has these be the last result.
   virtual void go_on_from(std::vector<Point2<double>> points) = 0;
   /// The last result.

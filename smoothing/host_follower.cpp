@@ -34,10 +34,11 @@ class HostFollower final : public Follower {
         previous_(mesh.points()) {}
 
   void follow(std::span<Point2<double>> points, Storage storage, MovingStart start, FollowResult& result) override {
-    std::vector<Point2<double>> now(points.begin(), points.end());
+    std::vector<Point2<double>> now = std::move(other_);
+    now.assign(points.begin(), points.end());
     {
       // Without the free vertices carried along there is no mesh to end with.
-      const CallLimit patient(std::numeric_limits<double>::infinity(), options_.cancel, CallLimit::begin_of_current());
+      const CallLimit patient(std::numeric_limits<double>::infinity(), *CallLimit::current());
       const LocalPoints held = in_frame_of(now, held_alone_);
       mesh_.find_crossings(mesh_.of_held(held.points), result);
       carry_from(start == MovingStart::reference ? mesh_.points() : previous_, storage, held, now);
@@ -49,8 +50,10 @@ class HostFollower final : public Follower {
     }
     look_at(now, frame, result);
     std::ranges::copy(now, points.begin());
-    previous_ = std::move(now);
+    other_ = std::exchange(previous_, std::move(now));
   }
+
+  void take_back() override { std::swap(previous_, other_); }
 
   void go_on_from(std::vector<Point2<double>> points) override { previous_ = std::move(points); }
   std::vector<Point2<double>> points() const override { return previous_; }
@@ -149,6 +152,7 @@ class HostFollower final : public Follower {
   std::vector<std::uint8_t> held_alone_;
   std::unique_ptr<PreparedSmoother> smoother_;
   std::vector<Point2<double>> previous_;
+  std::vector<Point2<double>> other_;  ///< the result before the last one
 };
 
 }  // namespace

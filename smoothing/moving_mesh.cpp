@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/moving_mesh.h"
 
-#include <limits>
+#include <iterator>
 #include <utility>
 
 #include "trismooth/base/heights.h"
-#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/moved_from.h"
 #include "trismooth/smoothing/backend.h"
@@ -13,7 +12,7 @@
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/follower.h"
 #include "trismooth/smoothing/limited.h"
-#include "trismooth/smoothing/moving/mesh_at_rest.h"
+#include "trismooth/smoothing/moving/moving_parts.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
 namespace trismooth {
@@ -29,45 +28,29 @@ SmoothingOptions moving_options() {
   return options;
 }
 
-class MovingMesh::Implementation {
+class MovingMesh::Implementation : public MovingParts<Follower> {
  public:
   Implementation(const ConstPointView& reference, const IndexView& triangles, const Constraints& constraints,
                  const SmoothingOptions& options)
-      : options_(options_of_moving(options, constraints)),
-        workers_(options.threads),
-        mesh_(reference.read(workers_), triangles, constraints, options.layers, workers_, rings_),
-        follower_(backend_of(options).follower(mesh_, std::move(rings_), options)) {}
+      : MovingParts(reference, triangles, constraints, options_of_moving(options, constraints),
+                    [&](const MeshAtRest& mesh, MeshRings rings) {
+                      return backend_of(options).follower(mesh, std::move(rings), options);
+                    }) {}
 
-  const SmoothingOptions& options() const { return options_; }
-  const std::vector<std::uint8_t>& held() const { return mesh_.held(); }
-  std::vector<Point2<double>> points() const { return follower_->points(); }
-
-  void follow(const PointView& points, MovingStart start, FollowResult& result) {
-    result.min_relative_shape = result.mean_relative_shape = std::numeric_limits<double>::quiet_NaN();
-    require_a_point_a_vertex(points.size(), points.components(), std::ssize(held()));
-    std::vector<Point2<double>> now = points.read(workers_);
-    if (points.components() == 3) {
-      // Where free vertices are means nothing.
-      require_one_height(points, now, [this] { return mesh_.held_alone(); });
-    }
-    follower_->follow(now, points.storage(), start, result);
-    result.smoothing.layers = mesh_.layers();
-    if (result.smoothing.inverted >= 0) {
-      points.write(now, workers_);
-    }
+  void follow(const PointView& points, MovingStart start, Storage storage, FollowResult& result) {
+    MovingParts::follow(result, [&](Follower& follower, FollowResult& found) {
+      require_a_point_a_vertex(points.size(), points.components(), std::ssize(held()));
+      std::vector<Point2<double>> now = points.read(workers());
+      if (points.components() == 3) {
+        // Where free vertices are means nothing.
+        require_one_height(points, now, [this] { return mesh().held_alone(); });
+      }
+      follower.follow(now, points.storage() == Storage::float32 ? Storage::float32 : storage, start, found);
+      if (found.smoothing.inverted >= 0) {
+        points.write(now, workers());
+      }
+    });
   }
-
-  void go_on_from(const ConstPointView& points) {
-    require_a_point_a_vertex(points.size(), points.components(), std::ssize(held()));
-    follower_->go_on_from(points.read(workers_));
-  }
-
- private:
-  SmoothingOptions options_;
-  Workers workers_;
-  MeshRings rings_;  ///< until the follower has them
-  MeshAtRest mesh_;
-  std::unique_ptr<Follower> follower_;
 };
 
 MovingMesh::MovingMesh(const ConstPointView& reference, const IndexView& triangles, const Constraints& constraints,
@@ -82,10 +65,14 @@ MovingMesh::MovingMesh(MovingMesh&&) noexcept = default;
 MovingMesh& MovingMesh::operator=(MovingMesh&&) noexcept = default;
 MovingMesh::~MovingMesh() = default;
 
-FollowResult MovingMesh::follow(const PointView& points, MovingStart start) {
+FollowResult MovingMesh::follow(const PointView& points, MovingStart start, Storage storage) {
   Implementation& mesh = not_moved_from(implementation_, "mesh");
   return followed(mesh.options(), backend_of(mesh.options()).name(),
-                  [&](FollowResult& result) { mesh.follow(points, start, result); });
+                  [&](FollowResult& result) { mesh.follow(points, start, storage, result); });
+}
+
+void MovingMesh::take_back() {
+  not_moved_from(implementation_, "mesh").take_back();
 }
 
 void MovingMesh::go_on_from(const ConstPointView& points) {

@@ -13,6 +13,7 @@
 #include "trismooth/base/index_view.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/point_view.h"
+#include "trismooth/base/storage.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/follow_result.h"
 #include "trismooth/smoothing/options.h"
@@ -79,13 +80,19 @@ class [[nodiscard]] MovingMesh {
   /// Puts the free vertices to where they belong, in place. `points`: one for every vertex; those of held vertices are
   /// where they are now, and keep their bits; those of free ones are not looked at, but must be finite. Of three
   /// numbers a point has, the third stays as it is, and those of held vertices that cells use are one height
-  /// (MeshError). Free vertices are rounded to the type of the points. Throws std::invalid_argument for a wrong number
-  /// of points and MeshError for a coordinate that is not finite; the points are untouched then, as where
-  /// options.cancel ends the call before the first sweep or options.time_limit_seconds does (StopReason::cancelled,
-  /// time_limit): what carries the vertices along is not broken off for want of time. The result knows nothing of the
-  /// mesh then (`inverted` is -1, shapes are NaN) but the crossings of the boundary. Complexity: two linear systems,
-  /// each linear in each of some ten steps, and that of SmoothingPlan::smooth().
-  FollowResult follow(const PointView& points, MovingStart start = MovingStart::reference);
+  /// (MeshError). Free vertices are rounded to the type of the points, and to `storage`. Throws std::invalid_argument
+  /// for a wrong number of points and MeshError for a coordinate that is not finite; the points are untouched then, as
+  /// where options.cancel ends the call before the first sweep or options.time_limit_seconds does
+  /// (StopReason::cancelled, time_limit): what carries the vertices along is not broken off for want of time. The
+  /// result knows nothing of the mesh then (`inverted` is -1, shapes are NaN) but the crossings of the boundary.
+  /// Complexity: two linear systems, each linear in each of some ten steps, and that of SmoothingPlan::smooth().
+  FollowResult follow(const PointView& points, MovingStart start = MovingStart::reference,
+                      Storage storage = Storage::float64);
+
+  /// Has the last step not have happened, as where a solver repeats a time step with a smaller one: the last result is
+  /// again the one before it. Throws std::logic_error where there is no such step: none yet, one that its limits ended
+  /// before the first sweep, one that was taken back, or go_on_from() since. Complexity: constant.
+  void take_back();
 
   /// Has these points be the last result, as where a run goes on that was broken off: MovingStart::previous starts
   /// there, and largest_move counts from there. `points`: one for every vertex. Throws std::invalid_argument for a
@@ -95,7 +102,8 @@ class [[nodiscard]] MovingMesh {
 
   /// Points of a type that does not say where their numbers are: what to write instead is in the compiler's message.
   template <array_layout::OtherPoints R>
-  FollowResult follow(R&& /*points*/, MovingStart /*start*/ = MovingStart::reference) {
+  FollowResult follow(R&& /*points*/, MovingStart /*start*/ = MovingStart::reference,
+                      Storage /*storage*/ = Storage::float64) {
     array_layout::refuse_points<R>();
     return {};
   }

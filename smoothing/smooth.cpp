@@ -64,7 +64,7 @@ class SmoothingPlan::Implementation {
     // begin with it again. The caller may cancel it.
     std::optional<CallLimit> patient;
     if (!is_once && smoother_ == nullptr) {
-      patient.emplace(std::numeric_limits<double>::infinity(), options_.cancel, CallLimit::begin_of_current());
+      patient.emplace(std::numeric_limits<double>::infinity(), *CallLimit::current());
     }
     const Storage stored = points.storage() == Storage::float32 ? Storage::float32 : storage;
     if (is_analysed_by_backend_ && !points.as_pairs().empty()) {

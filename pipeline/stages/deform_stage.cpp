@@ -2,7 +2,6 @@
 #include "trismooth/pipeline/stages/deform_stage.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -66,20 +65,6 @@ std::vector<Obeys> who_obeys(const RunState& run) {
     }
   }
   return obeys;
-}
-
-/// A mesh in the type in which its file stores coordinates follows: `places` become those of the result.
-template <class Number>
-FollowResult followed(MovingMesh& moving, BulkVector<Point2<double>>& places, MovingStart start) {
-  std::vector<std::array<Number, 2>> points(places.size());
-  std::ranges::transform(places, points.begin(), [](Point2<double> p) {
-    return std::array<Number, 2>{static_cast<Number>(p.x), static_cast<Number>(p.y)};
-  });
-  FollowResult result = moving.follow(points, start);
-  std::ranges::transform(points, places.begin(), [](const std::array<Number, 2>& p) {
-    return Point2<double>{static_cast<double>(p[0]), static_cast<double>(p[1])};
-  });
-  return result;
 }
 
 }  // namespace
@@ -174,8 +159,7 @@ void Deformer::move_inside() {
   const MovingStart start = run_.options.deformation->start;
   BulkVector<Point2<double>> places = run_.mesh.points;
   try {
-    followed_ = is_plain && storage_of(run_.document) == Storage::float32 ? followed<float>(moving_, places, start)
-                                                                          : followed<double>(moving_, places, start);
+    followed_ = moving_.follow(places, start, is_plain ? storage_of(run_.document) : Storage::float64);
   } catch (const MeshError& error) {
     throw ReadError(run_.options.input, error.what());
   }

@@ -179,6 +179,28 @@ TEST_CASE("a mesh on the device goes on from points that are given, and is what 
   CHECK((points == expected));
 }
 
+TEST_CASE("a step on the device that is taken back has not happened, and float may be asked for") {
+  const Rotor rotor;
+  cuda::Context context;
+  cuda::MovingMesh here(rotor.mesh.points, rotor.mesh.indices(), {}, trismooth::moving_options(), context.stream());
+  MovingMesh there(rotor.mesh.points, rotor.mesh.indices());
+  CHECK_THROWS_AS(here.take_back(), std::logic_error);
+  const auto step = [&](double degrees, Storage storage) {
+    std::vector<Point> expected = rotor.at(degrees * degree);
+    cuda::DeviceBuffer<Point> points(context, expected);
+    const FollowResult of_cpu = there.follow(expected, MovingStart::previous, storage);
+    CHECK(difference(here.follow(&points.data()->x, MovingStart::previous, storage), of_cpu) == "");
+    CHECK((here.points() == expected));
+  };
+  step(4, Storage::float64);
+  step(60, Storage::float32);
+  here.take_back();
+  there.take_back();
+  CHECK((here.points() == there.points()));
+  CHECK_THROWS_AS(here.take_back(), std::logic_error);
+  step(7, Storage::float32);
+}
+
 TEST_CASE("a mesh follows its boundary on one device, not on several") {
   const Rotor rotor;
   const std::array<int, 2> twice{0, 0};
