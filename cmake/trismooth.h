@@ -60,6 +60,7 @@
 #endif
 #if __has_include("trismooth/mpi/plan.h") && __has_include(<mpi.h>)
 #include "trismooth/mpi/local_mesh.h"
+#include "trismooth/mpi/moving_mesh.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/mpi/traffic.h"
 #endif

@@ -234,4 +234,15 @@ void Communicator::exchange(std::span<const Buffer> sends, std::span<const Buffe
   MPI_Type_free(&item);
 }
 
+std::shared_ptr<const Communicator> joined_ranks(MPI_Comm caller) {
+  try {
+    return std::make_shared<const Communicator>(caller);
+  } catch (const std::bad_alloc&) {
+    // The others wait for this rank to join them.
+    int rank = 0;
+    MPI_Comm_rank(caller, &rank);
+    end_all(caller, say_failure(rank));
+  }
+}
+
 }  // namespace trismooth::mpi

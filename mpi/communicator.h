@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -170,6 +171,10 @@ class Communicator {
   MPI_Datatype sums_type_ = MPI_DATATYPE_NULL;
   MPI_Op join_ = MPI_OP_NULL;
 };
+
+/// The ranks of a caller's communicator, for what is made of them. A rank without memory for that ends them all. Throws
+/// std::logic_error where MPI has not been initialised, or is finished. Collective.
+std::shared_ptr<const Communicator> joined_ranks(MPI_Comm caller);
 
 /// The lengths of lists. Local.
 template <class V>

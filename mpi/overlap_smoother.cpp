@@ -283,7 +283,6 @@ SmoothingResult OverlapSmoother::smoothed(std::span<Point2<double>> mine, Storag
   SmoothingResult result;
   try {
     result = is_gathered_ ? smoothed_here(mine, stored, frame) : smoothed_in_pieces(mine, stored, frame);
-    result.reverted_vertices = communicator_->sum(result.reverted_vertices);
   } catch (const PartsError&) {
     // All ranks are here.
     communicator_->on_all([&] {
@@ -330,6 +329,7 @@ SmoothingResult OverlapSmoother::smoothed_in_pieces(std::span<Point2<double>> mi
         return overlap_.is_own(std::min({a, b, c}));
       },
       *workers_, result);
+  result.reverted_vertices = communicator_->sum(result.reverted_vertices);
   result.inverted = communicator_->sum(result.inverted);
   result.degenerate = communicator_->sum(result.degenerate);
   return result;

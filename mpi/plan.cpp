@@ -2,8 +2,6 @@
 #include "trismooth/mpi/plan.h"
 
 #include <memory>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "trismooth/base/moved_from.h"
@@ -19,24 +17,9 @@ class Plan::Implementation {
   std::unique_ptr<OverlapSmoother> smoother;
 };
 
-namespace {
-
-/// The others wait for this rank to join them.
-std::shared_ptr<const Communicator> joined(MPI_Comm caller) {
-  try {
-    return std::make_shared<const Communicator>(caller);
-  } catch (const std::bad_alloc&) {
-    int rank = 0;
-    MPI_Comm_rank(caller, &rank);
-    end_all(caller, say_failure(rank));
-  }
-}
-
-}  // namespace
-
 Plan::Plan(MPI_Comm communicator, const LocalMesh& mesh, const Constraints& constraints,
            const SmoothingOptions& options, Gather gather) {
-  const std::shared_ptr<const Communicator> ranks = joined(communicator);
+  const std::shared_ptr<const Communicator> ranks = joined_ranks(communicator);
   implementation_ = ranks->together([&] {
     return std::make_unique<Implementation>(
         make_overlap_smoother(ranks, mesh, constraints, options, gather, OverlapSmoother::Owners::ranks));

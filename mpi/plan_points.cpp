@@ -33,7 +33,7 @@ HeightExtents joined(HeightExtents own, const Communicator& ranks) {
 
 }  // namespace
 
-BulkVector<Point2<double>> PlanPoints::gathered(const PointView& points) const {
+BulkVector<Point2<double>> PlanPoints::gathered(const ConstPointView& points) const {
   std::vector<Point2<double>> local;
   ranks_.on_all([&] {
     if (points.size() != overlap_.callers.local_count()) {
@@ -52,7 +52,7 @@ BulkVector<Point2<double>> PlanPoints::gathered(const PointView& points) const {
   return all;
 }
 
-Storage PlanPoints::storage_of(const PointView& points, Storage asked) const {
+Storage PlanPoints::storage_of(const ConstPointView& points, Storage asked) const {
   const bool is_float = asked == Storage::float32 || points.storage() == Storage::float32;
   const bool has_points = overlap_.callers.local_count() > 0;
   const bool are_float_somewhere = ranks_.any(is_float && has_points);
@@ -64,7 +64,7 @@ Storage PlanPoints::storage_of(const PointView& points, Storage asked) const {
   return is_float ? Storage::float32 : Storage::float64;
 }
 
-void PlanPoints::require_one_height(const PointView& points, std::span<const Point2<double>> gathered,
+void PlanPoints::require_one_height(const ConstPointView& points, std::span<const Point2<double>> gathered,
                                     std::span<const std::uint8_t> fixed) const {
   const bool has_heights = points.components() == 3;
   const bool has_points = overlap_.callers.local_count() > 0;

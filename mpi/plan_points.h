@@ -28,16 +28,16 @@ class PlanPoints {
 
   /// x and y of the overlap's vertices. Throws MeshError for a number that is not finite, std::invalid_argument for
   /// another number of points than there are local vertices and for points that ranks disagree about. Collective.
-  BulkVector<Point2<double>> gathered(const PointView& points) const;
+  BulkVector<Point2<double>> gathered(const ConstPointView& points) const;
 
   /// What is stored as: float where the points are, else `asked`. Throws std::invalid_argument where ranks with
   /// vertices differ in that. Collective.
-  Storage storage_of(const PointView& points, Storage asked) const;
+  Storage storage_of(const ConstPointView& points, Storage asked) const;
 
   /// Throws MeshError where points have heights and these are not the same everywhere: require_one_height() over all
   /// ranks. std::invalid_argument where ranks with vertices differ in whether there are any, or in one. `gathered`: as
   /// above; `fixed`: bits of namespace hold, one a vertex of the overlap. Collective.
-  void require_one_height(const PointView& points, std::span<const Point2<double>> gathered,
+  void require_one_height(const ConstPointView& points, std::span<const Point2<double>> gathered,
                           std::span<const std::uint8_t> fixed) const;
 
   /// Target lengths of the overlap's vertices, 1 where nobody says anything. `lengths`: one for each local vertex, or

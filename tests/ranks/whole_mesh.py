@@ -52,6 +52,22 @@ class WholeMesh(ranks_tool.RanksTest):
                     self.assertEqual(self.read(f"out.{extension}"), self.read(f"alone.{extension}"))
         self.assert_no_temporary_files()
 
+    def test_a_mesh_follows_its_boundary_to_the_bytes_of_one_process(self):
+        mesh = self.random_mesh(700)
+        pieces.write_vtu(self.path("whole.vtu"), mesh)
+        for name, part in (("half.csv", 0.5), ("all.csv", 1)):
+            with open(self.path(name), "w", encoding="ascii") as file:
+                file.writelines(f"{v}, {0.2 * part * y * (1 - x)}, {0.1 * part * x}\n"
+                                for v, (x, y, _) in enumerate(mesh.points))
+        steps = ("--start", "previous", "--steps", "half.csv", "all.csv")
+        self.run_tool("deform", "whole.vtu", "alone.vtu", *steps)
+        for ranks in RANKS:
+            outcome = self.run_over(ranks, "deform", "whole.vtu", "out.vtu", *steps)
+            for step in (1, 2):
+                self.assertEqual(self.read(f"out_{step}.vtu"), self.read(f"alone_{step}.vtu"))
+            self.assertEqual("rank 0 does it" in outcome.err, ranks > 1)
+        self.assertNotEqual(self.read("alone_1.vtu"), self.read("alone_2.vtu"))
+
     def test_single_is_what_the_report_speaks_of(self):
         for gap, options in ((0, {}), (3, {}), (0, {"ghosts": False})):
             write_both(self, self.random_mesh(700), gap=gap, **options)
