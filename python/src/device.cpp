@@ -2,8 +2,6 @@
 #include "trismooth/python/device.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,17 +13,16 @@
 #include <cuda_runtime_api.h>
 #include <nanobind/stl/string.h>
 
-#include "trismooth/base/heights.h"
 #include "trismooth/cuda/device_mesh.h"
+#include "trismooth/cuda/parts/device_scope.h"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 #include "trismooth/python/constraint_arrays.h"
 #include "trismooth/python/device_array.h"
+#include "trismooth/python/device_points.h"
 #include "trismooth/python/errors.h"
-#include "trismooth/python/host_array.h"
 #include "trismooth/python/interruption.h"
 #include "trismooth/python/options.h"
-#include "trismooth/python/results.h"
 #include "trismooth/python/turns.h"
 
 namespace nb = nanobind;
@@ -35,41 +32,10 @@ namespace trismooth::python {
 
 namespace {
 
-/// Makes a device the current one of this thread until it is destroyed.
-class CurrentDevice {
- public:
-  explicit CurrentDevice(int device) {
-    TRISMOOTH_CUDA_CHECK(cudaGetDevice(&before_));
-    TRISMOOTH_CUDA_CHECK(cudaSetDevice(device));
-  }
-  CurrentDevice(const CurrentDevice&) = delete;
-  CurrentDevice& operator=(const CurrentDevice&) = delete;
-  ~CurrentDevice() { cudaSetDevice(before_); }
-
- private:
-  int before_ = 0;
-};
-
-cudaStream_t stream_of(std::uintptr_t number) {
-  // DLPack's number of the default stream.
-  constexpr std::uintptr_t default_stream = 1;
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): so Python's libraries hand streams on
-  return number == default_stream ? nullptr : reinterpret_cast<cudaStream_t>(number);
-}
-
 void require_list(const DeviceArray& array, std::int64_t count, const char* of_what) {
   if (array.dimensions() != 1 || static_cast<std::int64_t>(array.extent(0)) != count) {
     array.raise_value("shape " + array.shape_text() + "; expected (" + std::to_string(count) + ",), one for each " +
                       of_what);
-  }
-}
-
-void require_points(const DeviceArray& points) {
-  if (points.kind() != 'f' || (points.item_size() != sizeof(float) && points.item_size() != sizeof(double))) {
-    points.raise_type("float64 or float32 is needed, not " + points.type_text());
-  }
-  if (points.dimensions() != 2 || (points.extent(1) != 2 && points.extent(1) != 3)) {
-    points.raise_value("shape " + points.shape_text() + "; expected (N, 2) or (N, 3), a vertex a row");
   }
 }
 
@@ -101,7 +67,7 @@ class DevicePlan {
     Interruption::watch(options, interruption_);
     mesh_.vertex_count = checked_count(vertex_count, "points");
     mesh_.triangle_count = checked_count(static_cast<std::int64_t>(triangles_.extent(0)), "triangles");
-    const CurrentDevice current(device_);
+    const cuda::DeviceScope scope(device_);
     context_ = std::make_unique<cuda::Context>(stream_of(stream));
     hold(constraints);
     mesh_.constraints.slide = call.slide;
@@ -110,48 +76,19 @@ class DevicePlan {
     naming_arguments([&] { plan_.emplace(mesh_, options, context_->stream()); });
   }
 
-  ~DevicePlan() {
-    int before = 0;
-    cudaGetDevice(&before);
-    cudaSetDevice(device_);
-    plan_.reset();
-    other_cell_flags_.reset();
-    fixed_flags_.reset();
-    region_numbers_.reset();
-    triangle_numbers_.reset();
-    context_.reset();
-    cudaSetDevice(before);
-  }
+  ~DevicePlan() { after_.begin(device_); }
   DevicePlan(const DevicePlan&) = delete;
   DevicePlan& operator=(const DevicePlan&) = delete;
 
-  /// Smooths `points` into `out`, which may be the same array. `is_new`: nobody minds what is in `out` where this
-  /// fails.
+  /// Smooths `points` into `out`: see DevicePoints.
   Outcome smooth(nb::handle points_capsule, nb::handle out_capsule, bool is_new, const nb::object& progress) {
-    const DeviceArray points(points_capsule, "points");
-    require_points(points);
-    points.require_device(device_);
-    if (static_cast<std::int64_t>(points.extent(0)) != mesh_.vertex_count) {
-      points.raise_value("shape " + points.shape_text() + "; there are " + std::to_string(mesh_.vertex_count) +
-                         " vertices");
-    }
-    const DeviceArray out(out_capsule, "out");
-    out.require_device(device_);
-    if (out.shape_text() != points.shape_text()) {
-      out.raise_value("shape " + out.shape_text() + "; that of points is " + points.shape_text());
-    }
-    if (out.type_text() != points.type_text()) {
-      out.raise_type("its numbers are " + out.type_text() + ", those of points " + points.type_text());
-    }
+    DevicePoints points(points_capsule, out_capsule, is_new, device_, mesh_.vertex_count);
     const Turn turn(turns_, "the plan");
     Interruption interruption(progress);
     interruption_ = &interruption;
-    const nb::gil_scoped_release no_gil;
-    const CurrentDevice current(device_);
-    return naming_arguments([&] {
-      return points.item_size() == sizeof(float) ? smooth_numbers<float>(points, out, is_new)
-                                                 : smooth_numbers<double>(points, out, is_new);
-    });
+    return points.smoothed(
+        *context_, nb::none(), [this](auto* xy, Outcome& outcome) { outcome.smoothing = plan_->smooth(xy); },
+        [this] { return plan_->fixed(); });
   }
 
   std::int64_t vertex_count() const { return mesh_.vertex_count; }
@@ -231,54 +168,7 @@ class DevicePlan {
     held = flags.data();
   }
 
-  template <class T>
-  Outcome smooth_numbers(const DeviceArray& points, const DeviceArray& out, bool is_new) {
-    const bool in_place = out.data() == points.data();
-    const bool has_heights = points.extent(1) == 3;
-    if (has_heights) {
-      require_heights<T>(points);
-    }
-    Outcome outcome;
-    if (out.is_packed(2, 2 * sizeof(T)) && (in_place || is_new)) {
-      auto* const xy = reinterpret_cast<T*>(out.data());
-      if (!in_place) {
-        cuda::gather_rows(*context_, points.rows(2), xy);
-      }
-      outcome.smoothing = plan_->smooth(xy);
-      return outcome;
-    }
-    cuda::DeviceBuffer<T> xy(*context_, 2 * points.extent(0));
-    cuda::gather_rows(*context_, points.rows(2), xy.data());
-    outcome.smoothing = plan_->smooth(xy.data());
-    cuda::scatter_rows(*context_, xy.data(), out.rows(2));
-    if (has_heights && !in_place) {
-      cuda::gather_rows(*context_, points.rows(1, 2), xy.data());
-      cuda::scatter_rows(*context_, xy.data(), out.rows(1, 2));
-    }
-    context_->synchronize();
-    return outcome;
-  }
-
-  /// On the host: an array with heights is copied anyway.
-  template <class T>
-  void require_heights(const DeviceArray& points) {
-    const std::size_t count = points.extent(0);
-    cuda::DeviceBuffer<T> packed(*context_, 3 * count);
-    cuda::gather_rows(*context_, points.rows(3), packed.data());
-    std::vector<std::array<T, 3>> numbers(count);
-    static_assert(sizeof(numbers[0]) == 3 * sizeof(T));
-    packed.download(std::span(count == 0 ? nullptr : numbers.front().data(), 3 * count));
-    std::vector<Point2<double>> pairs(count);
-    std::ranges::transform(numbers, pairs.begin(), [](const std::array<T, 3>& p) {
-      return Point2<double>{p[0], p[1]};
-    });
-    const auto is_finite = [](const std::array<T, 3>& p) { return std::isfinite(p[2]); };
-    if (const auto bad = std::ranges::find_if_not(numbers, is_finite); bad != numbers.end()) {
-      throw MeshError("vertex " + std::to_string(bad - numbers.begin()) + " has a coordinate that is not finite");
-    }
-    require_one_height(numbers, pairs, [this] { return plan_->fixed(); });
-  }
-
+  cuda::DeviceAtEnd after_;  ///< the last to go
   DeviceArray triangles_;
   int device_;
   std::vector<double> sizes_;
@@ -296,7 +186,7 @@ class DevicePlan {
 /// A new array on a device, of no values yet, that any library takes by DLPack.
 nb::ndarray<nb::array_api, nb::device::cuda> new_device_array(std::size_t rows, std::size_t columns, bool is_float32,
                                                               int device) {
-  const CurrentDevice current(device);
+  const cuda::DeviceScope scope(device);
   void* memory = nullptr;
   const std::size_t bytes = rows * columns * (is_float32 ? sizeof(float) : sizeof(double));
   TRISMOOTH_CUDA_CHECK(cudaMalloc(&memory, std::max<std::size_t>(bytes, 1)));
@@ -322,6 +212,7 @@ void bind_device(nb::module_& module) {
       .def_prop_ro("vertex_count", &DevicePlan::vertex_count)
       .def_prop_ro("triangle_count", &DevicePlan::triangle_count)
       .def_prop_ro("copied_bytes", &DevicePlan::copied_bytes);
+  bind_device_moving(module);
 }
 
 }  // namespace trismooth::python

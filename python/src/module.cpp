@@ -20,6 +20,7 @@ NB_MODULE(_core, module) {
   bind_errors(module);
   bind_results(module);
   bind_smoothing(module);
+  bind_moving(module);
   bind_quality_of_arrays(module);
   bind_flat_mesh(module);
   bind_device(module);

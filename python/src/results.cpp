@@ -224,6 +224,11 @@ void bind_results(nb::module_& module) {
       .def_prop_ro("reproducible", of_smoothing<&SmoothingResult::reproducible>())
       .def_prop_ro("note", of_smoothing<&SmoothingResult::backend_note>())
       .def_prop_ro("timings", &timings_of)
+      .def("with_invalid",
+           [](Outcome outcome, std::vector<std::int32_t> invalid) {
+             outcome.followed.value().invalid = std::move(invalid);
+             return outcome;
+           })
       .def("with_quality",
            [](Outcome outcome, const QualityReport& before, const QualityReport& after) {
              outcome.before = before;

@@ -5,8 +5,11 @@
 
 namespace trismooth::python {
 
-/// Makes smooth(), Plan and MovingMesh for arrays in memory of the host.
+/// Makes smooth() and Plan for arrays in memory of the host.
 void bind_smoothing(nanobind::module_& module);
+
+/// Makes MovingMesh for them.
+void bind_moving(nanobind::module_& module);
 
 /// Makes quality() for them.
 void bind_quality_of_arrays(nanobind::module_& module);

@@ -7,6 +7,7 @@ Skipped where the build has no CUDA, the machine no device, or a library is miss
 from __future__ import annotations
 
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -121,7 +122,7 @@ def test_in_place_nothing_is_copied(writable):
     pointer = writable.pointer(on_device)
     result = trismooth.smooth(on_device, corners, out=on_device)
     assert result.points is on_device and writable.pointer(on_device) == pointer
-    assert trismooth._device.DevicePlan(corners, len(points), Constraints(), {"method": "smart", "backend": "auto"})._plan.copied_bytes == 0
+    assert trismooth._device.DevicePlan(corners, len(points), Constraints(), {"method": "smart", "backend": "auto"})._made.copied_bytes == 0
     np.testing.assert_array_equal(writable.get(on_device), host(points, triangles))
 
 
@@ -180,6 +181,95 @@ def test_a_mesh_follows_its_boundary_on_the_device_to_the_cpus_bits():
             np.testing.assert_array_equal(result.points, expected.points)
             assert result.backend == "cuda"
             assert result.min_relative_shape == expected.min_relative_shape
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+def test_a_mesh_made_of_points_on_the_device_follows_there_to_the_cpus_bits(library, dtype):
+    points, triangles = grid(60, 40)
+    points = points.astype(dtype)
+    here = trismooth.MovingMesh(library.put(points), library.put(triangles), fixed=library.put(np.array([1000])))
+    there = trismooth.MovingMesh(points, triangles, fixed=[1000])
+    np.testing.assert_array_equal(here.held, there.held)
+    for height in (1.2, 0.7, 1.0):
+        for start in ("reference", "previous"):
+            now = np.where(here.held[:, None], points * [1, height], points).astype(dtype)
+            result = here.follow(library.put(now), start=start, quality=True)
+            expected = there.follow(now, start=start, quality=True)
+            assert isinstance(result.points, library.type) and result.backend == "cuda"
+            np.testing.assert_array_equal(library.get(result.points), expected.points)
+            np.testing.assert_array_equal(here.points, there.points)
+            assert result.min_relative_shape == expected.min_relative_shape
+            assert result.largest_move == expected.largest_move
+            assert str(result.after) == str(expected.after)
+
+
+def test_a_mesh_on_the_device_follows_in_place_with_heights_and_goes_on(writable):
+    points, triangles = grid(60, 40)
+    there = trismooth.MovingMesh(points, triangles)
+    here = trismooth.MovingMesh(writable.put(points), triangles)
+    now = np.where(here.held[:, None], points * [1, 0.8], points)
+    expected = there.follow(now).points
+    wide = writable.put(np.column_stack([now, np.where(here.held, 2.5, 7), points]))
+    assert here.follow(wide[:, :3], out=wide[:, :3]).inverted == 0
+    np.testing.assert_array_equal(writable.get(wide)[:, :2], expected)
+    np.testing.assert_array_equal(writable.get(wide)[:, 2], np.where(here.held, 2.5, 7))
+    here.follow(writable.put(points))
+    here.take_back()
+    np.testing.assert_array_equal(here.points, expected)
+    here.go_on_from(writable.put(expected))
+    there.go_on_from(expected)
+    given = writable.put(now)
+    assert here.follow(given, start="previous", out=given).points is given
+    np.testing.assert_array_equal(writable.get(given), there.follow(now, start="previous").points)
+
+
+def test_a_step_on_the_device_that_is_refused_has_not_happened(writable):
+    points, triangles = grid(30, 20)
+    put = writable.put
+    mesh = trismooth.MovingMesh(put(points), put(triangles))
+    folded = points.copy()
+    folded[points[:, 1] == 0, 1] = 30
+    given = put(folded)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", trismooth.MeshWarning)
+        with pytest.raises(trismooth.MeshWarning):
+            mesh.follow(given, out=given)
+    np.testing.assert_array_equal(writable.get(given), folded)
+    np.testing.assert_array_equal(mesh.points, points)
+    nan = points.copy()
+    nan[20, 1] = np.nan
+    cases = [
+        (lambda: mesh.follow(put(nan)), ValueError, "points"),
+        (lambda: mesh.follow(points), ValueError, "points: are in memory of the host"),
+        (lambda: trismooth.MovingMesh(points, triangles).follow(put(points)), ValueError, "points: are on cuda:0"),
+        (lambda: mesh.follow(put(points[:5])), ValueError, "points: shape"),
+        (lambda: mesh.follow(put(points), out=points.copy()), ValueError, "out"),
+        (lambda: mesh.follow(put(points), start="now"), ValueError, "start"),
+        (lambda: mesh.go_on_from(put(nan)), ValueError, "points"),
+        (lambda: trismooth.MovingMesh(put(points), put(triangles), backend="cpu"), ValueError, "backend"),
+        (lambda: trismooth.MovingMesh(put(points), put(triangles), devices=[0, 1]), ValueError, "devices"),
+        (lambda: trismooth.MovingMesh(put(points), put(triangles), stream="x"), TypeError, "stream"),
+    ]
+    for call, error, name in cases:
+        with pytest.raises(error) as raised:
+            call()
+        assert str(raised.value).startswith(name), raised.value
+    np.testing.assert_array_equal(mesh.points, points)
+
+
+def test_a_mesh_that_moves_works_on_the_callers_stream():
+    cupy = pytest.importorskip("cupy")
+    points, triangles = grid(60, 40)
+    expected = trismooth.MovingMesh(points, triangles).follow(points * 1.25).points
+    stream = cupy.cuda.Stream(non_blocking=True)
+    mesh = trismooth.MovingMesh(cupy.asarray(points), triangles, stream=stream)
+    with stream:
+        on_device = cupy.asarray(points)
+        for _ in range(200):  # keeps the stream busy: whoever does not wait for it sees other points
+            on_device = on_device * 2 / 2
+        on_device = on_device * 1.25
+        moved = mesh.follow(on_device).points + 0
+    np.testing.assert_array_equal(moved.get(), expected)
 
 
 def test_any_strides_and_heights(writable):

@@ -156,6 +156,19 @@ def test_triangles_that_are_listed_again_count_once_and_are_said():
     np.testing.assert_array_equal(mesh.follow(now).points, trismooth.MovingMesh(points, triangles).follow(now).points)
 
 
+def test_invalid_triangles_have_the_numbers_of_the_list_that_was_given():
+    points, triangles, of_rotor = rotor()
+    twice = np.concatenate([triangles[:40], triangles])
+    now = points.copy()
+    now[of_rotor] += [3.7, 0.1]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", trismooth.MeshWarning)
+        result = trismooth.MovingMesh(points, twice).follow(now)
+    areas = doubled_areas(result.points, twice) * np.sign(doubled_areas(points, twice))
+    first = np.unique(np.sort(twice, axis=1), axis=0, return_index=True)[1]
+    assert result.invalid == sorted(set(first) & set(np.flatnonzero(~(areas > 0))))
+
+
 def test_named_vertices_and_borders_of_regions_are_held():
     points, triangles, _ = rotor()
     labels = (doubled_areas(points, triangles) > np.median(doubled_areas(points, triangles))).astype(int)
@@ -304,6 +317,10 @@ def test_a_call_that_fails_has_not_happened():
         with pytest.raises(trismooth.MeshWarning):
             mesh.follow(bad)
     np.testing.assert_array_equal(mesh.points, last)
+    other = trismooth.MovingMesh(points, triangles)
+    other.go_on_from(last)
+    now = with_rotor_at(points, of_rotor, 12)
+    np.testing.assert_array_equal(mesh.follow(now, start="previous").points, other.follow(now, start="previous").points)
 
 
 def test_a_run_goes_on_from_points_that_were_kept():
@@ -321,6 +338,23 @@ def test_a_run_goes_on_from_points_that_were_kept():
         again.go_on_from(points[:-1])
 
 
+def test_a_step_that_is_taken_back_has_not_happened():
+    points, triangles, of_rotor = rotor()
+    mesh = trismooth.MovingMesh(points, triangles)
+    with pytest.raises(RuntimeError, match="no step to take back"):
+        mesh.take_back()
+    first = mesh.follow(with_rotor_at(points, of_rotor, 10)).points
+    mesh.follow(with_rotor_at(points, of_rotor, 50))
+    mesh.take_back()
+    np.testing.assert_array_equal(mesh.points, first)
+    with pytest.raises(RuntimeError, match="no step to take back"):
+        mesh.take_back()
+    other = trismooth.MovingMesh(points, triangles)
+    other.go_on_from(first)
+    now = with_rotor_at(points, of_rotor, 12)
+    np.testing.assert_array_equal(mesh.follow(now, start="previous").points, other.follow(now, start="previous").points)
+
+
 def test_velocities_are_about_those_of_the_boundary_however_small_the_step():
     points, triangles, of_rotor = rotor()
     mesh = trismooth.MovingMesh(points, triangles)
@@ -336,5 +370,7 @@ def test_what_has_no_meaning_for_a_mesh_that_moves_is_refused_by_its_name():
     points, triangles, _ = rotor()
     with pytest.raises(ValueError, match="^slide: "):
         trismooth.MovingMesh(points, triangles, slide="straight")
+    with pytest.raises(TypeError, match="^stream: "):
+        trismooth.MovingMesh(points, triangles, stream=1)
     with pytest.raises(TypeError, match="^start: "):
         trismooth.MovingMesh(points, triangles).follow(points, start=None)

@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 import sys
-from typing import Any, Dict, Optional
+from typing import Any, Callable, Dict, List, Optional, Tuple
 
 import numpy as np
 
 from . import _arrays, _core
 from ._constraints import Constraints
+from ._notes import warn_of
+from ._plan import OnHost
 from ._result import Result
 
 #: DLPack's number of the default stream.
@@ -109,62 +111,109 @@ def _on_device(constraints: Constraints, stream: int) -> Dict[str, Any]:
     }
 
 
-def _refuse_devices(options: Dict[str, Any]) -> None:
-    if options.get("devices") is not None:
-        raise ValueError("devices: are for arrays in memory of the host; arrays on a CUDA device are smoothed there")
+def _on_host(array: Any) -> Any:
+    """What is on a device, as the host has it."""
+    return array if array is None or _arrays.device_of(array) is None else to_host(array)
 
 
-class DevicePlan:
-    """The part of Plan for arrays on a device."""
+class _OnDevice:
+    """What smooths or moves points on a device. ``_made`` is the compiled part's."""
 
-    def __init__(self, triangles: Any, n_points: int, constraints: Constraints, options: Dict[str, Any]) -> None:
-        _require_cuda("triangles", triangles)
+    def __init__(self, triangles: Any, options: Dict[str, Any], array: Any, argument: str) -> None:
+        _require_cuda(argument, array)
         if options["backend"] == "cpu":
-            raise ValueError("backend: 'cpu' is for arrays in memory of the host, and triangles are on a CUDA device")
-        _refuse_devices(options)
-        options = dict(options)
-        self._given_stream = options.pop("stream", None)
-        options["backend"] = "cuda"
-        stream = _stream(triangles, self._given_stream)
-        self._stream_number = stream
+            raise ValueError(f"backend: 'cpu' is for arrays in memory of the host, and {argument} are on a CUDA device")
+        if options.get("devices") is not None:
+            raise ValueError("devices: are for arrays in memory of the host; arrays on a CUDA device are smoothed there")
+        self._options = dict(options, backend="cuda")
+        self._stream_number = _stream(array, self._options.pop("stream", None))
         self._triangles = triangles
-        self._plan = _core.DevicePlan(
-            _capsule(triangles, "triangles", stream),
-            n_points,
-            _on_device(constraints, stream),
-            stream,
-            options,
-        )
+        self._place = f"{argument} are on a CUDA device"
+        self._made: Any
 
     @property
     def vertex_count(self) -> int:
-        return self._plan.vertex_count
+        return int(self._made.vertex_count)
 
     @property
     def triangle_count(self) -> int:
-        return self._plan.triangle_count
+        return int(self._made.triangle_count)
 
-    def smooth(self, points: Any, out: Any, quality: bool, progress: Any) -> Result:
+    def smoothed(
+        self, points: Any, out: Any, quality: bool, smooth: Callable[[Any, Any, bool], _core.Outcome]
+    ) -> Tuple[_core.Outcome, Any, Any, Any]:
+        """What a result is made of. ``smooth`` is called with points, output, and whether that is new."""
         if _arrays.device_of(points) is None:
-            raise ValueError("points: are in memory of the host, and triangles are on a CUDA device")
+            raise ValueError(f"points: are in memory of the host, and {self._place}")
         if out is not None:
             _require_writable(out)
         target = _new_like(points) if out is None else out
-        stream = self._stream_number
         reports = [self._report(points)] if quality else []
-        outcome = self._plan.smooth(
-            _capsule(points, "points", stream),
-            _capsule(target, "out", stream),
-            out is None,
-            progress,
+        outcome = smooth(
+            _capsule(points, "points", self._stream_number), _capsule(target, "out", self._stream_number), out is None
         )
         result_points = _as_given(points, target) if out is None else out
         if quality:
             outcome = outcome.with_quality(reports[0], self._report(result_points))
-        return Result(outcome, result_points, self._triangles, None if out is points else points)
+        return outcome, result_points, self._triangles, None if out is points else points
 
     def _report(self, points: Any) -> _core.QualityReport:
-        return _core.quality(to_host(points), to_host(self._triangles), 0)[0]
+        return _core.quality(to_host(points), self._corners(), 0)[0]
+
+    def _corners(self) -> np.ndarray:
+        return to_host(self._triangles)
+
+
+class DevicePlan(_OnDevice):
+    """The part of Plan for arrays on a device."""
+
+    def __init__(self, triangles: Any, n_points: int, constraints: Constraints, options: Dict[str, Any]) -> None:
+        super().__init__(triangles, options, triangles, "triangles")
+        stream = self._stream_number
+        self._made = _core.DevicePlan(
+            _capsule(triangles, "triangles", stream), n_points, _on_device(constraints, stream), stream, self._options
+        )
+
+    def smooth(self, points: Any, out: Any, quality: bool, progress: Any) -> Result:
+        return Result(
+            *self.smoothed(
+                points, out, quality, lambda given, into, is_new: self._made.smooth(given, into, is_new, progress)
+            )
+        )
+
+
+class DeviceMovingMesh(_OnDevice):
+    """The part of MovingMesh for points on a device. What is made ready of the reference is made on the host."""
+
+    def __init__(self, points: Any, triangles: Any, constraints: Constraints, options: Dict[str, Any]) -> None:
+        super().__init__(triangles, options, points, "points")
+        self._place = "the mesh was made of points on a CUDA device"
+        reference = to_host(points)
+        device, stream = _arrays.device_of(points) or 0, self._stream_number
+        self.on_host = OnHost(
+            _on_host(triangles),
+            len(reference) if reference.ndim == 2 else 0,
+            Constraints(*(_on_host(array) for array in constraints)),
+            lambda corners, held: _core.DeviceMovingMesh(reference, corners, held, device, stream, self._options),
+        )
+        self._made = self.on_host.made
+
+    def follow(
+        self, points: Any, out: Any, start: str, quality: bool, progress: Any, notes: Callable[[_core.Outcome], List[str]]
+    ) -> Tuple[_core.Outcome, Any, Any, Any, List[str]]:
+        def step(given: Any, into: Any, is_new: bool) -> _core.Outcome:
+            return self._made.follow(given, into, is_new, start, progress, lambda found: warn_of(notes(found)))
+
+        outcome, result, triangles, before = self.smoothed(points, out, quality, step)
+        outcome = self.on_host.renumbered(outcome)
+        return outcome, result, triangles, before, notes(outcome)
+
+    def copied(self, points: Any) -> Any:
+        """Points, wherever they are, as the host has them."""
+        return _on_host(points)
+
+    def _corners(self) -> np.ndarray:
+        return self.on_host.corners
 
 
 def smooth(
@@ -178,8 +227,6 @@ def smooth(
 ) -> Result:
     """smooth() for points on a device."""
     _require_cuda("points", points)
-    if options["backend"] == "cpu":
-        raise ValueError("backend: 'cpu' is for arrays in memory of the host, and points are on a CUDA device")
     if _arrays.device_of(triangles) is None:
         raise ValueError(f"triangles: are in memory of the host, and points are on cuda:{_arrays.device_of(points)}")
     if _arrays.device_of(triangles) != _arrays.device_of(points):

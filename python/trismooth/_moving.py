@@ -114,12 +114,14 @@ class MovingMesh:
     Made of the mesh at rest, the *reference*, whose sizes and shapes are aimed at. In every step you say where the held
     vertices are; the others are carried along with them, untangled where they have to be, smoothed and guarded. The same
     boundary gives the same points to the last bit, whatever came before: after a cycle nothing has drifted. On
-    the CPU, or with ``backend="cuda"`` on a GPU, to the same bits. See docs/moving.md.
+    the CPU, or with ``backend="cuda"`` on a GPU, to the same bits; made of points on a CUDA device it takes points
+    there, and only those of the boundary go to the host. See docs/moving.md.
 
     Parameters
     ----------
     points : array of float64 or float32, shape (N, 2) or (N, 3)
-        The reference, in memory of the host. It is copied, as all arrays are.
+        The reference: of NumPy, or on a CUDA device (CuPy, PyTorch, JAX, whatever has DLPack). It is copied, as all
+        arrays are, which may be on either.
     triangles : array of integers, shape (M, 3)
     regions, fixed, other_cells, **options
         As for :func:`trismooth.smooth`, with other defaults: ``method`` is "mean-ratio", ``target`` "input-shape" (the
@@ -161,17 +163,22 @@ class MovingMesh:
             raise TypeError("size: a mesh that moves has the sizes of its reference")
         if options.get("slide", "off") != "off":
             raise ValueError("slide: vertices that slide have no place of their own; say where they are, without sliding")
-        options["backend"] = "cpu" if backend == "auto" else backend
+        constraints = Constraints(regions, fixed, other_cells)
+        self._on_device: Any = None
         if _arrays.device_of(points) is not None:
-            raise ValueError("points: is on a CUDA device; a mesh that moves takes arrays in memory of the host")
-        reference = _arrays.on_host(points, "points", float)
-        count = len(reference) if reference.ndim == 2 else 0
-        self._mesh = OnHost(
-            triangles,
-            count,
-            Constraints(regions, fixed, other_cells),
-            lambda corners, held: _core.HostMovingMesh(reference, corners, held, options),
-        )
+            from . import _device
+
+            self._on_device = _device.DeviceMovingMesh(points, triangles, constraints, {"backend": backend, **options})
+            self._mesh = self._on_device.on_host
+        else:
+            if "stream" in options:
+                raise TypeError("stream: is for arrays on a CUDA device, and points are in memory of the host")
+            options["backend"] = "cpu" if backend == "auto" else backend
+            reference = _arrays.on_host(points, "points", float)
+            count = len(reference) if reference.ndim == 2 else 0
+            self._mesh = OnHost(
+                triangles, count, constraints, lambda corners, held: _core.HostMovingMesh(reference, corners, held, options)
+            )
         self._moving = self._mesh.made
         self._notes = [*self._mesh.notes, *options_without_effect({"method": "mean-ratio", "slide": "off", **options}, None)]
         warn_of(self._notes)
@@ -195,7 +202,7 @@ class MovingMesh:
 
     @property
     def points(self) -> np.ndarray:
-        """The last mesh, at first the reference: a copy, of float64 and shape (N, 2)."""
+        """The last mesh, at first the reference: a copy in memory of the host, of float64 and shape (N, 2)."""
         points: np.ndarray = self._moving.points
         return points
 
@@ -214,7 +221,7 @@ class MovingMesh:
         ----------
         points : array of float64 or float32, shape (N, 2) or (N, 3)
             Held vertices where they are now, which keep their bits. Where the others are does not matter, but they must
-            be finite.
+            be finite. On a CUDA device if the reference was.
         start : {"reference", "previous"}
             Where vertices are carried on from. "reference": the result depends on the boundary alone. "previous", the
             last result: fewer sweeps where steps are small, and the result depends on the path.
@@ -239,16 +246,28 @@ class MovingMesh:
         if not isinstance(start, str):
             raise TypeError(f"start: 'reference' or 'previous' is needed, not {start!r}")
         wanted = _arrays.wants_quality(quality, False)
-        result = FollowResult(
-            *self._mesh.smoothed(
+        if self._on_device is not None:
+            made = self._on_device.follow(points, out, start, wanted, progress, _notes_of_following)
+        elif _arrays.device_of(points) is not None:
+            raise ValueError(
+                f"points: are on cuda:{_arrays.device_of(points)}, and the mesh was made of points in memory of the host"
+            )
+        else:
+            made = self._mesh.smoothed(
                 points,
                 out,
                 lambda given, into, accept: self._moving.follow(given, into, start, wanted, progress, accept),
                 _notes_of_following,
             )
-        )
+        result = FollowResult(*made)
         result.notes += self._notes
         return result
+
+    def take_back(self) -> None:
+        """Has the last step not have happened, as where a solver repeats a time step with a smaller one: :attr:`points` are
+        those before it. RuntimeError where there is no such step: none yet, one that was taken back, or
+        :meth:`go_on_from` since."""
+        self._moving.take_back()
 
     def go_on_from(self, points: Any) -> None:
         """Has these points be the last mesh, as where a run goes on that was broken off: ``start="previous"`` starts there.
@@ -257,6 +276,8 @@ class MovingMesh:
         ----------
         points : array of float64 or float32, shape (N, 2) or (N, 3)
         """
+        if self._on_device is not None:
+            points = self._on_device.copied(points)
         self._moving.go_on_from(_arrays.on_host(points, "points", float))
 
     def __repr__(self) -> str:

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typing import Any, Callable, Dict, List, Optional, Tuple
 
+import numpy as np
+
 from . import _arrays, _core
 from ._constraints import Constraints
 from ._notes import options_without_effect, warn_of
@@ -31,6 +33,7 @@ class OnHost:
             corners = self._repeats.triangles()
             constraints = self._repeats.leave_out(constraints, n_points)
             self.notes = self._repeats.notes
+        self.corners: np.ndarray = corners
         self.made: Any = make(corners, constraints.on_host())
 
     def smoothed(
@@ -40,9 +43,12 @@ class OnHost:
         numbers = _arrays.on_host(points, "points", float)
         output = _arrays.Output(points, numbers, out)
         outcome = smooth(numbers, output.numbers, lambda outcome: warn_of(notes(outcome)))
-        if self._repeats is not None:
-            outcome = self._repeats.renumbered(outcome)
+        outcome = self.renumbered(outcome)
         return outcome, output.delivered(), self._triangles, output.input_points(), notes(outcome)
+
+    def renumbered(self, outcome: _core.Outcome) -> _core.Outcome:
+        """What was made of each triangle once, with the numbers of the list that was given."""
+        return outcome if self._repeats is None else self._repeats.renumbered(outcome)
 
 
 class Plan:

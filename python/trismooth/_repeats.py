@@ -92,6 +92,8 @@ class Repeats:
 
     def renumbered(self, outcome: _core.Outcome) -> _core.Outcome:
         """What was made of the triangles that are kept, with their numbers in the whole list."""
+        if outcome.following is not None:
+            outcome = outcome.with_invalid(self.kept[outcome.following["invalid"]].tolist())
         if outcome.before is None or outcome.after is None:
             return outcome
         return outcome.with_quality(
