@@ -48,7 +48,7 @@ bool is_integer(const DeviceArray& array) {
 class DevicePlan {
  public:
   DevicePlan(nb::handle triangles_capsule, std::int64_t vertex_count, const nb::dict& constraints,
-             std::uintptr_t stream, const nb::dict& arguments)
+             std::uintptr_t stream, nb::handle /*kept*/, const nb::dict& arguments)
       : triangles_(triangles_capsule, "triangles"),
         device_(triangles_.device()),
         sizes_(reals(constraint_of(constraints, "size"), "size", static_cast<std::size_t>(vertex_count))) {
@@ -206,8 +206,8 @@ void bind_device(nb::module_& module) {
   module.attr("has_cuda") = true;
   module.def("new_device_array", &new_device_array, "rows"_a, "columns"_a, "is_float32"_a, "device"_a);
   nb::class_<DevicePlan>(module, "DevicePlan")
-      .def(nb::init<nb::handle, std::int64_t, const nb::dict&, std::uintptr_t, const nb::dict&>(), "triangles"_a,
-           "vertex_count"_a, "constraints"_a, "stream"_a, "options"_a)
+      .def(nb::init<nb::handle, std::int64_t, const nb::dict&, std::uintptr_t, nb::handle, const nb::dict&>(),
+           "triangles"_a, "vertex_count"_a, "constraints"_a, "stream"_a, "kept"_a, "options"_a, nb::keep_alive<1, 6>())
       .def("smooth", &DevicePlan::smooth, "points"_a, "out"_a, "is_new"_a, "progress"_a.none())
       .def_prop_ro("vertex_count", &DevicePlan::vertex_count)
       .def_prop_ro("triangle_count", &DevicePlan::triangle_count)

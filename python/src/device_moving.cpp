@@ -22,11 +22,12 @@ namespace trismooth::python {
 
 namespace {
 
-/// A mesh that follows its boundary in device memory, made of arrays in memory of the host.
+/// A mesh that follows its boundary in device memory, made of arrays in memory of the host. `kept`: whose the stream
+/// is; work is queued there to the very end.
 class DeviceMovingMesh : public PreparedMovingMesh<cuda::MovingMesh> {
  public:
   DeviceMovingMesh(nb::handle reference, nb::handle triangles, const nb::dict& constraints, int device,
-                   std::uintptr_t stream, const nb::dict& arguments)
+                   std::uintptr_t stream, nb::handle /*kept*/, const nb::dict& arguments)
       : PreparedMovingMesh(
             HostArray(reference, "points"), triangles, constraints, arguments,
             [&](std::optional<cuda::MovingMesh>& mesh, const ConstPointView& points, std::span<const Triangle> corners,
@@ -81,8 +82,9 @@ class DeviceMovingMesh : public PreparedMovingMesh<cuda::MovingMesh> {
 
 void bind_device_moving(nb::module_& module) {
   nb::class_<DeviceMovingMesh>(module, "DeviceMovingMesh")
-      .def(nb::init<nb::handle, nb::handle, const nb::dict&, int, std::uintptr_t, const nb::dict&>(), "points"_a,
-           "triangles"_a, "constraints"_a, "device"_a, "stream"_a, "options"_a)
+      .def(nb::init<nb::handle, nb::handle, const nb::dict&, int, std::uintptr_t, nb::handle, const nb::dict&>(),
+           "points"_a, "triangles"_a, "constraints"_a, "device"_a, "stream"_a, "kept"_a, "options"_a,
+           nb::keep_alive<1, 7>())
       .def("follow", &DeviceMovingMesh::follow, "points"_a, "out"_a, "is_new"_a, "start"_a, "progress"_a.none(),
            "accept"_a)
       .def("take_back", &DeviceMovingMesh::take_back)

@@ -26,8 +26,10 @@ class PreparedMovingMesh : public PreparedTriangles {
  public:
   void go_on_from(nanobind::handle points) {
     const HostArray array(points, "points");
-    in_turn(nanobind::none(),
-            [&] { with_points(array, threads_, [this](const ConstPointView& view) { mesh_->go_on_from(view); }); });
+    in_turn(nanobind::none(), [&] {
+      naming_arguments(
+          [&] { with_points(array, threads_, [this](const ConstPointView& view) { mesh_->go_on_from(view); }); });
+    });
   }
 
   void take_back() {

@@ -171,7 +171,7 @@ def test_lines_named_on_the_host_slide_on_the_device_too():
 
 
 def test_a_mesh_follows_its_boundary_on_the_device_to_the_cpus_bits():
-    points, triangles = grid(60, 40)
+    points, triangles = grid(60, 40, shift=0.2)
     here = trismooth.MovingMesh(points, triangles, backend="cuda")
     there = trismooth.MovingMesh(points, triangles)
     for height in (1.2, 0.7, 1.0):
@@ -185,7 +185,7 @@ def test_a_mesh_follows_its_boundary_on_the_device_to_the_cpus_bits():
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_a_mesh_made_of_points_on_the_device_follows_there_to_the_cpus_bits(library, dtype):
-    points, triangles = grid(60, 40)
+    points, triangles = grid(60, 40, shift=0.2)
     points = points.astype(dtype)
     here = trismooth.MovingMesh(library.put(points), library.put(triangles), fixed=library.put(np.array([1000])))
     there = trismooth.MovingMesh(points, triangles, fixed=[1000])
@@ -204,7 +204,7 @@ def test_a_mesh_made_of_points_on_the_device_follows_there_to_the_cpus_bits(libr
 
 
 def test_a_mesh_on_the_device_follows_in_place_with_heights_and_goes_on(writable):
-    points, triangles = grid(60, 40)
+    points, triangles = grid(60, 40, shift=0.2)
     there = trismooth.MovingMesh(points, triangles)
     here = trismooth.MovingMesh(writable.put(points), triangles)
     now = np.where(here.held[:, None], points * [1, 0.8], points)
@@ -224,7 +224,7 @@ def test_a_mesh_on_the_device_follows_in_place_with_heights_and_goes_on(writable
 
 
 def test_a_step_on_the_device_that_is_refused_has_not_happened(writable):
-    points, triangles = grid(30, 20)
+    points, triangles = grid(30, 20, shift=0.2)
     put = writable.put
     mesh = trismooth.MovingMesh(put(points), put(triangles))
     folded = points.copy()
@@ -259,7 +259,7 @@ def test_a_step_on_the_device_that_is_refused_has_not_happened(writable):
 
 def test_a_mesh_that_moves_works_on_the_callers_stream():
     cupy = pytest.importorskip("cupy")
-    points, triangles = grid(60, 40)
+    points, triangles = grid(60, 40, shift=0.2)
     expected = trismooth.MovingMesh(points, triangles).follow(points * 1.25).points
     stream = cupy.cuda.Stream(non_blocking=True)
     mesh = trismooth.MovingMesh(cupy.asarray(points), triangles, stream=stream)

@@ -215,6 +215,7 @@ class DevicePlan:
         vertex_count: int,
         constraints: dict[str, Any],
         stream: int,
+        kept: Any,
         options: dict[str, Any],
     ) -> None: ...
     def smooth(self, points: Any, out: Any, is_new: bool, progress: Any) -> Outcome: ...
@@ -233,6 +234,7 @@ class DeviceMovingMesh:
         constraints: dict[str, Any],
         device: int,
         stream: int,
+        kept: Any,
         options: dict[str, Any],
     ) -> None: ...
     def follow(

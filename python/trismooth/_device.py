@@ -26,21 +26,25 @@ def _require_cuda(argument: str, array: Any) -> None:
         )
 
 
-def _stream(array: Any, stream: Any) -> int:
-    """The number of a stream: of the one that the caller names, else of the current one of the array's library."""
+def _stream(array: Any, stream: Any) -> Any:
+    """The stream that the caller names, else the current one of the array's library."""
     if stream is not None:
-        for name in ("ptr", "cuda_stream", "handle"):  # of CuPy, PyTorch and cuda.core
-            if hasattr(stream, name):
-                return int(getattr(stream, name)) or _DEFAULT_STREAM
-        if hasattr(stream, "__index__"):
-            return int(stream) or _DEFAULT_STREAM
-        raise TypeError(f"stream: a CUDA stream or its number is needed, not {type(stream).__name__}")
+        return stream
     library = _arrays.library_of(array)
     if library == "cupy":
-        return int(sys.modules["cupy"].cuda.get_current_stream().ptr) or _DEFAULT_STREAM
+        return sys.modules["cupy"].cuda.get_current_stream()
     if library == "torch":
-        return int(sys.modules["torch"].cuda.current_stream(array.device).cuda_stream) or _DEFAULT_STREAM
+        return sys.modules["torch"].cuda.current_stream(array.device)
     return _DEFAULT_STREAM
+
+
+def _number_of(stream: Any) -> int:
+    for name in ("ptr", "cuda_stream", "handle"):  # of CuPy, PyTorch and cuda.core
+        if hasattr(stream, name):
+            return int(getattr(stream, name)) or _DEFAULT_STREAM
+    if hasattr(stream, "__index__"):
+        return int(stream) or _DEFAULT_STREAM
+    raise TypeError(f"stream: a CUDA stream or its number is needed, not {type(stream).__name__}")
 
 
 def _capsule(array: Any, argument: str, stream: int) -> Any:
@@ -126,7 +130,9 @@ class _OnDevice:
         if options.get("devices") is not None:
             raise ValueError("devices: are for arrays in memory of the host; arrays on a CUDA device are smoothed there")
         self._options = dict(options, backend="cuda")
-        self._stream_number = _stream(array, self._options.pop("stream", None))
+        # Kept: work is queued on it, also when memory is given back at the end.
+        self._stream = _stream(array, self._options.pop("stream", None))
+        self._stream_number = _number_of(self._stream)
         self._triangles = triangles
         self._place = f"{argument} are on a CUDA device"
         self._made: Any
@@ -171,7 +177,12 @@ class DevicePlan(_OnDevice):
         super().__init__(triangles, options, triangles, "triangles")
         stream = self._stream_number
         self._made = _core.DevicePlan(
-            _capsule(triangles, "triangles", stream), n_points, _on_device(constraints, stream), stream, self._options
+            _capsule(triangles, "triangles", stream),
+            n_points,
+            _on_device(constraints, stream),
+            stream,
+            self._stream,
+            self._options,
         )
 
     def smooth(self, points: Any, out: Any, quality: bool, progress: Any) -> Result:
@@ -189,12 +200,14 @@ class DeviceMovingMesh(_OnDevice):
         super().__init__(triangles, options, points, "points")
         self._place = "the mesh was made of points on a CUDA device"
         reference = to_host(points)
-        device, stream = _arrays.device_of(points) or 0, self._stream_number
+        device = _arrays.device_of(points) or 0
         self.on_host = OnHost(
             _on_host(triangles),
             len(reference) if reference.ndim == 2 else 0,
             Constraints(*(_on_host(array) for array in constraints)),
-            lambda corners, held: _core.DeviceMovingMesh(reference, corners, held, device, stream, self._options),
+            lambda corners, held: _core.DeviceMovingMesh(
+                reference, corners, held, device, self._stream_number, self._stream, self._options
+            ),
         )
         self._made = self.on_host.made
 
@@ -202,7 +215,10 @@ class DeviceMovingMesh(_OnDevice):
         self, points: Any, out: Any, start: str, quality: bool, progress: Any, notes: Callable[[_core.Outcome], List[str]]
     ) -> Tuple[_core.Outcome, Any, Any, Any, List[str]]:
         def step(given: Any, into: Any, is_new: bool) -> _core.Outcome:
-            return self._made.follow(given, into, is_new, start, progress, lambda found: warn_of(notes(found)))
+            step_of: _core.Outcome = self._made.follow(
+                given, into, is_new, start, progress, lambda found: warn_of(notes(found))
+            )
+            return step_of
 
         outcome, result, triangles, before = self.smoothed(points, out, quality, step)
         outcome = self.on_host.renumbered(outcome)

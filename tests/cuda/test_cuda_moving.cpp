@@ -185,20 +185,20 @@ TEST_CASE("a step on the device that is taken back has not happened, and float m
   cuda::MovingMesh here(rotor.mesh.points, rotor.mesh.indices(), {}, trismooth::moving_options(), context.stream());
   MovingMesh there(rotor.mesh.points, rotor.mesh.indices());
   CHECK_THROWS_AS(here.take_back(), std::logic_error);
-  const auto step = [&](double degrees, Storage storage) {
+  const auto step = [&](double degrees, trismooth::Storage storage) {
     std::vector<Point> expected = rotor.at(degrees * degree);
     cuda::DeviceBuffer<Point> points(context, expected);
     const FollowResult of_cpu = there.follow(expected, MovingStart::previous, storage);
     CHECK(difference(here.follow(&points.data()->x, MovingStart::previous, storage), of_cpu) == "");
     CHECK((here.points() == expected));
   };
-  step(4, Storage::float64);
-  step(60, Storage::float32);
+  step(4, trismooth::Storage::float64);
+  step(60, trismooth::Storage::float32);
   here.take_back();
   there.take_back();
   CHECK((here.points() == there.points()));
   CHECK_THROWS_AS(here.take_back(), std::logic_error);
-  step(7, Storage::float32);
+  step(7, trismooth::Storage::float32);
 }
 
 TEST_CASE("a mesh follows its boundary on one device, not on several") {
