@@ -20,9 +20,11 @@ class MovingMesh::Implementation : public MovingParts<DeviceFollower> {
 
   template <class T>
   void follow(T* xy, Storage storage, MovingStart start, FollowResult& result) {
-    MovingParts::follow(result, [&](DeviceFollower& follower, FollowResult& found) {
+    const auto look = [&] {
       require_aligned(xy, held().size(), sizeof(Point2<T>), "xy");
       require_on_device(xy, held().size(), "xy");
+    };
+    MovingParts::follow(result, look, [&](DeviceFollower& follower, FollowResult& found) {
       follower.follow_on_device(xy, storage, start, found);
     });
   }

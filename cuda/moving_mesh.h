@@ -47,8 +47,10 @@ class [[nodiscard]] MovingMesh {
   FollowResult follow(float* xy, MovingStart start = MovingStart::reference);
 
   /// Has the last step not have happened, as where a solver repeats a time step with a smaller one: the last result is
-  /// again the one before it. Throws std::logic_error where there is no such step: none yet, one that its limits ended
-  /// before the first sweep, one that was taken back, or go_on_from() since. Complexity: constant.
+  /// again the one before it. Throws std::logic_error where there is no such step: none yet, one that was taken back,
+  /// go_on_from() since, or a call since that has begun and has not come to its end (its limits ended it before the
+  /// first sweep, a callback has thrown): it has not happened, but what was before the step before it is gone.
+  /// Complexity: constant.
   void take_back();
 
   /// Has these points, in memory of the host, be the last result: see trismooth::MovingMesh::go_on_from(). Throws

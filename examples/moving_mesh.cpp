@@ -65,7 +65,7 @@ int main() {
     std::printf("%5.1f degrees: %lld inverted, shape relative to the reference %.3f at least, %.3f on average\n",
                 degrees, static_cast<long long>(result.smoothing.inverted), result.min_relative_shape,
                 result.mean_relative_shape);
-    if (result.smoothing.inverted > 0) {
+    if (!result.is_valid()) {
       return 1;
     }
     if (step == 0) {

@@ -10,7 +10,7 @@ namespace trismooth::mpi {
 
 const ErrorKinds& library_errors() {
   static constexpr std::array kinds{error_kind<std::invalid_argument>(), error_kind<MeshError>(),
-                                    error_kind<DeviceError>()};
+                                    error_kind<DeviceError>(), error_kind<std::logic_error>()};
   static constexpr ErrorKinds errors{kinds, true};
   return errors;
 }

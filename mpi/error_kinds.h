@@ -29,7 +29,8 @@ struct ErrorKinds {
   bool names_rank = false;  ///< "rank 3: " stands in front of messages, where there are several
 };
 
-/// Those of the library: std::invalid_argument, MeshError and DeviceError, with the rank's number. Local.
+/// Those of the library: std::invalid_argument, MeshError, DeviceError and std::logic_error, with the rank's number.
+/// Local.
 const ErrorKinds& library_errors();
 
 }  // namespace trismooth::mpi

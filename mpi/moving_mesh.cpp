@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -17,6 +16,7 @@
 #include "trismooth/mpi/overlap.h"
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/mpi/plan_points.h"
+#include "trismooth/mpi/same_options.h"
 #include "trismooth/mpi/shared_result.h"
 #include "trismooth/smoothing/moving/mesh_at_rest.h"
 
@@ -24,13 +24,15 @@ namespace trismooth::mpi {
 
 namespace {
 
-/// An id as a number of the whole mesh.
-std::int32_t number_of(std::int64_t id) {
-  if (id > std::numeric_limits<std::int32_t>::max()) {
-    throw std::invalid_argument("the whole of a mesh that moves is on rank 0, with ids up to 2147483647: " +
-                                std::to_string(id) + " is above that");
+/// `ids`: what `what` calls them. Throws std::invalid_argument where one is no number of a mesh on one rank.
+void require_numbers(const ArrayView<std::int64_t>& ids, const char* what) {
+  constexpr std::int64_t last = std::numeric_limits<std::int32_t>::max() - 1;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] > last) {
+      throw std::invalid_argument(std::string(what) + ": the whole of a mesh that moves is on rank 0, with ids up to " +
+                                  std::to_string(last) + "; " + std::to_string(ids[i]) + " is above that");
+    }
   }
-  return static_cast<std::int32_t>(id);
 }
 
 /// What all ranks have is rank 0's overlap.
@@ -40,6 +42,8 @@ Overlap gathered_on_first(const std::shared_ptr<const Communicator>& ranks, cons
   std::span<const Triangle> triangles;
   std::optional<Workers> workers;
   ranks->on_all([&] {
+    require_numbers(mesh.vertex_ids, "vertex_ids");
+    require_numbers(mesh.triangle_ids, "triangle_ids");
     workers.emplace(threads);
     triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
   });
@@ -61,10 +65,7 @@ class MovingMesh::Implementation {
     held_alone_.resize(overlap_.ids.size());
     std::vector<std::uint8_t> held(overlap_.ids.size());
     on_first([&] {
-      std::ranges::transform(overlap_.ids, std::back_inserter(numbers_), &number_of);
-      if (!overlap_.triangles.empty()) {
-        number_of(overlap_.triangle_ids[overlap_.triangles.size() - 1]);
-      }
+      numbers_.assign(overlap_.ids.begin(), overlap_.ids.end());
       make(all, options);
       const std::vector<std::uint8_t> of_all = moving_->held();
       for (std::size_t v = 0; v < held.size(); ++v) {
@@ -95,7 +96,13 @@ class MovingMesh::Implementation {
     });
   }
 
+  void take_back() {
+    on_first([&] { moving_->take_back(); });
+  }
+
   FollowResult follow(const PointView& points, MovingStart start) {
+    const std::vector<OptionValue> asked{{"start", static_cast<std::int64_t>(start)}};
+    require_same(asked, *ranks_);
     const Storage stored = points_->storage_of(points, Storage::float64);
     BulkVector<Point2<double>> all = points_->gathered(points);
     points_->require_one_height(points, all, held_alone_);
@@ -105,7 +112,7 @@ class MovingMesh::Implementation {
       result = moving_->follow(now, start, stored);
       take(now, all);
       for (std::int32_t& t : result.invalid) {
-        t = number_of(overlap_.triangle_ids[static_cast<std::size_t>(t)]);
+        t = static_cast<std::int32_t>(overlap_.triangle_ids[static_cast<std::size_t>(t)]);
       }
       for (RevertedVertex& reverted : result.smoothing.reverted) {
         reverted.vertex =
@@ -205,6 +212,11 @@ MovingMesh::~MovingMesh() = default;
 FollowResult MovingMesh::follow(const PointView& points, MovingStart start) {
   Implementation& mesh = not_moved_from(implementation_, "mesh");
   return mesh.ranks().together([&] { return mesh.follow(points, start); });
+}
+
+void MovingMesh::take_back() {
+  Implementation& mesh = not_moved_from(implementation_, "mesh");
+  mesh.ranks().together([&] { mesh.take_back(); });
 }
 
 void MovingMesh::go_on_from(const ConstPointView& points) {

@@ -30,7 +30,7 @@ class [[nodiscard]] MovingMesh {
   /// numbers; a vertex is held where any rank that has it says so; no vertices slide. All are copied. A rank may have
   /// nothing. `options`: the same on all ranks, but for threads and `progress` and `cancel`, of which those of rank 0
   /// alone are called. Throws as trismooth::MovingMesh and mpi::Plan do, and std::invalid_argument for ids above
-  /// 2^31 - 1. Complexity: n log n in what a rank has, linear in the largest id on rank 0. Collective.
+  /// 2^31 - 2. Complexity: n log n in what a rank has, linear in the largest id on rank 0. Collective.
   MovingMesh(MPI_Comm communicator, const ConstPointView& reference, const LocalMesh& mesh,
              const Constraints& constraints, const SmoothingOptions& options = moving_options());
   /// Held is what the mesh itself holds: its boundaries. All else as with constraints. Collective.
@@ -42,15 +42,19 @@ class [[nodiscard]] MovingMesh {
   ~MovingMesh();
 
   /// Puts the free vertices to where they belong, in place. `points`: one for each local vertex, of two or three
-  /// numbers, float or double, alike on all ranks; those of held vertices are where they are now, the same to the bit
-  /// on all ranks that have them, and keep their bits; those of free ones are not looked at, but must be finite and the
-  /// same, too. Throws std::invalid_argument for a wrong number of points and for points that ranks disagree about,
-  /// MeshError for a coordinate that is not finite and for held vertices of several heights; DeviceError. The result is
-  /// that of the whole mesh, on all ranks: `crossings`, `overlaps` and `invalid` have the ids of vertices and
-  /// triangles; `reverted` lists local vertices, on every rank that has them; UntanglingResult::turned is not filled;
-  /// device, threads, launches and timings are rank 0's, and are 0 or empty on the others. Complexity: that of
-  /// trismooth::MovingMesh::follow() of the whole, on rank 0. Collective.
+  /// numbers, float or double, alike on all ranks that have vertices; those of held vertices are where they are now,
+  /// the same to the bit on all ranks that have them, and keep their bits; those of free ones are not looked at, but
+  /// must be finite and the same, too. `start`: the same on all ranks. Throws std::invalid_argument for a wrong number
+  /// of points and for what ranks disagree about, MeshError for a coordinate that is not finite and for held vertices
+  /// of several heights; DeviceError. The result is that of the whole mesh, on all ranks: `crossings`, `overlaps` and
+  /// `invalid` have the ids of vertices and triangles; `reverted` lists local vertices, on every rank that has them;
+  /// UntanglingResult::turned is not filled; device, threads, launches and timings are rank 0's, and are 0 or empty on
+  /// the others. Complexity: that of trismooth::MovingMesh::follow() of the whole, on rank 0. Collective.
   FollowResult follow(const PointView& points, MovingStart start = MovingStart::reference);
+
+  /// Has the last step not have happened: see trismooth::MovingMesh::take_back(), and throws as that, on all ranks.
+  /// Complexity: constant. Collective.
+  void take_back();
 
   /// Has these points be the last result: see trismooth::MovingMesh::go_on_from(). `points`: one for each local vertex,
   /// as for follow(). Throws std::invalid_argument for a wrong number of points and for points that ranks disagree

@@ -61,7 +61,7 @@ Storage PlanPoints::storage_of(const ConstPointView& points, Storage asked) cons
       throw std::invalid_argument("points, or the storage of results: double here and float on other ranks");
     }
   });
-  return is_float ? Storage::float32 : Storage::float64;
+  return (has_points ? is_float : are_float_somewhere) ? Storage::float32 : Storage::float64;
 }
 
 void PlanPoints::require_one_height(const ConstPointView& points, std::span<const Point2<double>> gathered,

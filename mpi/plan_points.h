@@ -30,8 +30,8 @@ class PlanPoints {
   /// another number of points than there are local vertices and for points that ranks disagree about. Collective.
   BulkVector<Point2<double>> gathered(const ConstPointView& points) const;
 
-  /// What is stored as: float where the points are, else `asked`. Throws std::invalid_argument where ranks with
-  /// vertices differ in that. Collective.
+  /// What is stored as: float where the points are, else `asked`; on ranks without vertices what it is on the others.
+  /// Throws std::invalid_argument where ranks with vertices differ in that. Collective.
   Storage storage_of(const ConstPointView& points, Storage asked) const;
 
   /// Throws MeshError where points have heights and these are not the same everywhere: require_one_height() over all

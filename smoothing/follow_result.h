@@ -36,6 +36,13 @@ struct FollowResult {
   std::vector<std::int32_t> overlaps;
   /// The triangles that are inverted or degenerate, ascending; the first most_listed.
   std::vector<std::int32_t> invalid;
+  /// Whether a solver may go on with this mesh: no triangle is inverted or degenerate, and it lies over itself nowhere.
+  /// False as well where the call was over before the first sweep, and for a reference with invalid triangles that
+  /// nothing mends.
+  bool is_valid() const {
+    return smoothing.inverted == 0 && smoothing.degenerate == 0 && crossings.empty() && overlaps.empty();
+  }
+
   double largest_move = 0;  ///< of a vertex from the last mesh (at first: the reference) to this one, in its units
 };
 

@@ -38,13 +38,16 @@ class MovingMesh::Implementation : public MovingParts<Follower> {
                     }) {}
 
   void follow(const PointView& points, MovingStart start, Storage storage, FollowResult& result) {
-    MovingParts::follow(result, [&](Follower& follower, FollowResult& found) {
+    std::vector<Point2<double>> now;
+    const auto read = [&] {
       require_a_point_a_vertex(points.size(), points.components(), std::ssize(held()));
-      std::vector<Point2<double>> now = points.read(workers());
+      now = points.read(workers());
       if (points.components() == 3) {
         // Where free vertices are means nothing.
         require_one_height(points, now, [this] { return mesh().held_alone(); });
       }
+    };
+    MovingParts::follow(result, read, [&](Follower& follower, FollowResult& found) {
       follower.follow(now, points.storage() == Storage::float32 ? Storage::float32 : storage, start, found);
       if (found.smoothing.inverted >= 0) {
         points.write(now, workers());

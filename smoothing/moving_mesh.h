@@ -46,16 +46,18 @@ struct EnumText<MovingStart> {
 ///     for (...) {
 ///       move_boundary(points);                  // of the held vertices
 ///       auto result = moving.follow(points);    // all are where they belong
-///       if (result.smoothing.inverted != 0) { ... }  // the boundary leaves the mesh no room
+///       if (!result.is_valid()) { ... }         // the boundary leaves the mesh no room
 ///     }
 ///
-/// With MovingStart::reference the result is a function of the reference and the boundary alone: the same boundary
-/// gives the same bits, whatever came before, so after a cycle the drift is 0. Where nothing has moved the result is
-/// near the reference, not it: shapes that it has are better where that does nobody harm.
+/// Options are best made from moving_options(): those of SmoothingOptions itself have a method without a memory of the
+/// reference. With MovingStart::reference the result is a function of the reference and the boundary alone: the same
+/// boundary gives the same bits, whatever came before, so after a cycle the drift is 0. Where nothing has moved the
+/// result is near the reference, not it: shapes that it has are better where that does nobody harm.
 ///
 /// Vertices of layers (SmoothingOptions::layers, found in the reference) are carried along and not smoothed: their
 /// heights stay. Owns copies of all it needs. Can be moved; what was moved from can be assigned to and destroyed, its
-/// functions throw std::logic_error. One thread at a time may use it.
+/// functions throw std::logic_error. One thread at a time may use it; follow(), take_back() and go_on_from() throw
+/// std::logic_error in a callback of its own follow().
 class [[nodiscard]] MovingMesh {
  public:
   /// `reference`: one point for every vertex, in the plane of x and y. `triangles`, `constraints`: as SmoothingPlan has
@@ -90,8 +92,10 @@ class [[nodiscard]] MovingMesh {
                       Storage storage = Storage::float64);
 
   /// Has the last step not have happened, as where a solver repeats a time step with a smaller one: the last result is
-  /// again the one before it. Throws std::logic_error where there is no such step: none yet, one that its limits ended
-  /// before the first sweep, one that was taken back, or go_on_from() since. Complexity: constant.
+  /// again the one before it. Throws std::logic_error where there is no such step: none yet, one that was taken back,
+  /// go_on_from() since, or a call since that has begun and has not come to its end (its limits ended it before the
+  /// first sweep, a callback has thrown): it has not happened, but what was before the step before it is gone.
+  /// Complexity: constant.
   void take_back();
 
   /// Has these points be the last result, as where a run goes on that was broken off: MovingStart::previous starts

@@ -246,13 +246,15 @@ class Gathered {
     std::int64_t held = 0;
     std::int64_t without = 0;
     std::int64_t of_free = 0;
+    bool is_any_told = false;
     for (std::size_t v = 0; v < obeys_.size(); ++v) {
+      is_any_told = is_any_told || (obeys_[v] != Obeys::never && found_.is_given[v] != 0);
       const bool is_held = obeys_[v] == Obeys::always;
       held += is_held ? 1 : 0;
       without += is_held && found_.is_given[v] == 0 ? 1 : 0;
       of_free += obeys_[v] == Obeys::never && found_.is_given[v] != 0 && found_.of_vertex[v] != Vector{0, 0, 0} ? 1 : 0;
     }
-    if (held > 0 && without == held) {
+    if (held > 0 && !is_any_told) {
       throw std::invalid_argument(whose + " gives no vertex of the boundary a displacement");
     }
     if (without > 0) {
@@ -294,7 +296,7 @@ std::vector<std::int32_t> vertices_of(std::span<const NumberedVector> vectors, c
     numbers.push_back(vector.vertex);
   }
   if (are_labels) {
-    return vertices_of_labels(numbers, document, path.string());
+    return vertices_of_labels(numbers, document, "'--displacement-labels'", "the text without it");
   }
   const auto count = static_cast<std::int64_t>(document.point_count());
   for (const std::int64_t number : numbers) {

@@ -92,9 +92,10 @@ std::vector<std::int32_t> read_vertex_ids(const std::filesystem::path& path, std
 
 /// The vertices with these labels: the numbers that the document's own file gives its points, be it as global ids
 /// (global_ids.h). Throws std::invalid_argument, which begins with `argument`, for a label that no point has, and where
-/// the file gives none, or one to several points. Complexity: n log n in the vertices where labels do not count on.
+/// the file gives none, or one to several points: `rows` is what takes rows instead, "fixed". Complexity: n log n in
+/// the vertices where labels do not count on.
 std::vector<std::int32_t> vertices_of_labels(std::span<const std::int64_t> labels, const MeshDocument& document,
-                                             const std::string& argument);
+                                             const std::string& argument, const std::string& rows);
 
 /// The labels of vertices that a text file names, as read_vertex_numbers() reads them. Throws ReadError.
 std::vector<std::int64_t> read_labels(const std::filesystem::path& path);

@@ -100,8 +100,8 @@ class LabelledPoints {
 }  // namespace
 
 std::vector<std::int32_t> vertices_of_labels(std::span<const std::int64_t> labels, const MeshDocument& document,
-                                             const std::string& argument) {
-  const LabelledPoints points(document, argument, "fixed");
+                                             const std::string& argument, const std::string& rows) {
+  const LabelledPoints points(document, argument, rows);
   std::vector<std::int32_t> vertices;
   for (const std::int64_t label : labels) {
     const std::optional<std::int32_t> vertex = points.find(label);

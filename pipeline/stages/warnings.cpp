@@ -160,8 +160,11 @@ std::vector<std::string> warnings_of_deformation(const PipelineResult& result) {
       text +=
           fmt::format(", {} of which have corners of the boundary alone, which itself has folded", worst.invalid_held);
     }
-    warnings.push_back(text +
-                       "; --layers smooth may mend what layers cannot follow, else the boundary needs another mesh");
+    const bool may_be_layers = result.smoothing->layers.kept > 0 && worst.invalid_held < worst.invalid();
+    warnings.push_back(
+        text + (may_be_layers
+                    ? "; --layers smooth may mend what layers cannot follow, else the boundary needs another mesh"
+                    : "; vertices that lack a displacement may be why, else the boundary needs another mesh"));
   }
   if (const auto [crossing, first] = in_steps([](const DeformedStep& step) { return step.crossings > 0; });
       crossing > 0) {

@@ -286,7 +286,7 @@ class FileMesh {
       } else if (name == "fixed_labels") {
         if (!value.is_none()) {
           const auto labels = nb::cast<std::vector<std::int64_t>>(value);
-          std::ranges::copy(vertices_of_labels(labels, document_, "fixed_labels"),
+          std::ranges::copy(vertices_of_labels(labels, document_, "fixed_labels", "fixed"),
                             std::back_inserter(options.fixed_vertices));
         }
       } else if (name == "merge") {

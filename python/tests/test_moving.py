@@ -355,6 +355,24 @@ def test_a_step_that_is_taken_back_has_not_happened():
     np.testing.assert_array_equal(mesh.follow(now, start="previous").points, other.follow(now, start="previous").points)
 
 
+def test_a_mesh_is_valid_where_nothing_is_inverted_flat_or_over_itself():
+    points, triangles, of_rotor = rotor()
+    mesh = trismooth.MovingMesh(points, triangles)
+    assert mesh.follow(with_rotor_at(points, of_rotor, 10)).valid
+    now = points.copy()
+    now[of_rotor] += [3.7, 0.1]
+    with pytest.warns(trismooth.MeshWarning, match="take_back"):
+        assert not mesh.follow(now).valid
+    with pytest.raises(ValueError, match="read-only"):
+        mesh.held[0] = False
+
+
+def test_a_method_without_a_memory_of_the_reference_is_said():
+    points, triangles, _ = rotor()
+    with pytest.warns(trismooth.MeshWarning, match="no memory of the reference"):
+        trismooth.MovingMesh(points, triangles, method="smart")
+
+
 def test_velocities_are_about_those_of_the_boundary_however_small_the_step():
     points, triangles, of_rotor = rotor()
     mesh = trismooth.MovingMesh(points, triangles)

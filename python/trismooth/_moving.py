@@ -11,10 +11,15 @@ from . import _arrays, _core
 from ._constraints import Constraints
 from ._notes import options_without_effect, warn_of
 from ._plan import OnHost
+from ._result import NOT_MENDED as _NOT_MENDED
 from ._result import Result, notes_of
 from ._smooth import Progress
 
 _MOST_LISTED = 1000
+_NO_ROOM = (
+    "the boundary leaves them no room, or layers that are kept do not; take_back() and a smaller step, layers='smooth' or "
+    "another boundary is the way out"
+)
 
 
 def _following(outcome: _core.Outcome) -> dict[str, Any]:
@@ -24,8 +29,11 @@ def _following(outcome: _core.Outcome) -> dict[str, Any]:
 
 
 def _notes_of_following(outcome: _core.Outcome) -> List[str]:
-    # What is kept of layers is kept where it is carried to.
-    notes = [note.replace("are held: ", "are carried along and not smoothed: ") for note in notes_of(outcome)]
+    # What is kept of layers is kept where it is carried to; what is not mended has another way out.
+    notes = [
+        note.replace("are held: ", "are carried along and not smoothed: ").replace(_NOT_MENDED, _NO_ROOM)
+        for note in notes_of(outcome)
+    ]
     folded = 0 if outcome.following is None else outcome.following["invalid_held"]
     if folded > 0:
         notes.append(
@@ -62,6 +70,12 @@ class FollowResult(Result):
     where vertices were carried to."""
 
     __slots__ = ()
+
+    @property
+    def valid(self) -> bool:
+        """Whether a solver may go on with this mesh: no triangle is inverted or degenerate, and it lies over itself nowhere.
+        False as well where the call was over before the first sweep."""
+        return self.inverted == 0 and self.degenerate == 0 and not self.crossings and not self.overlaps
 
     @property
     def min_relative_shape(self) -> float:
@@ -145,7 +159,7 @@ class MovingMesh:
     >>> for time in times:
     ...     points[mesh.held] = boundary_at(time)
     ...     result = mesh.follow(points, out=points)
-    ...     if result.inverted != 0: ...
+    ...     if not result.valid: ...
     """
 
     def __init__(
@@ -181,6 +195,11 @@ class MovingMesh:
             )
         self._moving = self._mesh.made
         self._notes = [*self._mesh.notes, *options_without_effect({"method": "mean-ratio", "slide": "off", **options}, None)]
+        if options.get("method", "mean-ratio") != "mean-ratio":
+            self._notes.append(
+                f"the method {options['method']!r} has no memory of the reference, whose shapes and sizes method='mean-ratio' "
+                "aims at"
+            )
         warn_of(self._notes)
 
     @property
@@ -198,6 +217,7 @@ class MovingMesh:
         """The vertices of which you say where they are: an array of N bools, those of boundaries and borders of regions
         and those that you named."""
         held: np.ndarray = self._moving.held
+        held.flags.writeable = False
         return held
 
     @property
@@ -265,8 +285,9 @@ class MovingMesh:
 
     def take_back(self) -> None:
         """Has the last step not have happened, as where a solver repeats a time step with a smaller one: :attr:`points` are
-        those before it. RuntimeError where there is no such step: none yet, one that was taken back, or
-        :meth:`go_on_from` since."""
+        those before it. RuntimeError where there is no such step: none yet, one that was taken back, :meth:`go_on_from`
+        since, or a call since that has begun and raised or ended early: that has not happened, but what was before the step
+        before it is gone."""
         self._moving.take_back()
 
     def go_on_from(self, points: Any) -> None:

@@ -16,6 +16,9 @@ class NotComputed(AttributeError):
     """A quality that was not asked for: pass ``quality=True``."""
 
 
+NOT_MENDED = "the untangling could not mend more, and triangles that are held at all three vertices stay as they are"
+
+
 def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     """What to say of triangles that are not valid in the result: a sentence, or none."""
     kinds = ((outcome.inverted, "inverted triangle{}"), (outcome.degenerate, "triangle{} without area"))
@@ -25,7 +28,7 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     if outcome.untangling is None:
         why = "nothing untangled the mesh; untangle=True does"
     else:
-        why = "the untangling could not mend more, and triangles that are held at all three vertices stay as they are"
+        why = NOT_MENDED
     return [f"the result has {' and '.join(found)}: {why}"]
 
 

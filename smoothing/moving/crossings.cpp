@@ -34,9 +34,12 @@ bool are_on_one_side(double c, double d) {
   return (c > 0 && d > 0) || (c < 0 && d < 0);
 }
 
-/// Whether two edges that leave one point lie on each other.
+/// Whether two edges that leave one point lie on each other: to rounding, or so nearly that nobody sees by the angles
+/// around that point which of them comes first.
 bool lie_on_each_other(Point2<double> from, Point2<double> a, Point2<double> b) {
-  return area_beyond_rounding(from, a, b) == 0 && dot(a - from, b - from) > 0;
+  constexpr double nearly = 1e-12;
+  const double along = dot(a - from, b - from);
+  return along > 0 && (area_beyond_rounding(from, a, b) == 0 || std::abs(cross(a - from, b - from)) < nearly * along);
 }
 
 /// Whether edges on one line have a point in common.
@@ -65,11 +68,11 @@ Meeting meeting_of(const Edge& one, const Edge& other, std::span<const Point2<do
   const Point2<double> d = at(other[1]);
   const double c_beside = area_beyond_rounding(a, b, c);
   const double d_beside = area_beyond_rounding(a, b, d);
-  if (c_beside == 0 && d_beside == 0) {
-    return touch_where(meet_on_line(a, b, c, d));
-  }
   const double a_beside = area_beyond_rounding(c, d, a);
   const double b_beside = area_beyond_rounding(c, d, b);
+  if (a_beside == 0 && b_beside == 0 && c_beside == 0 && d_beside == 0) {
+    return touch_where(meet_on_line(a, b, c, d));
+  }
   if (are_on_one_side(c_beside, d_beside) || are_on_one_side(a_beside, b_beside)) {
     return Meeting::none;
   }

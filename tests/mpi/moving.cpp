@@ -96,6 +96,9 @@ TEST_CASE("random meshes in pieces follow whatever their boundary does to the bi
       if (seed == random.seed + 1) {
         whole.go_on_from(random.mesh.points);
         moving.go_on_from(reference);
+      } else if (random.seed % 2 == 0) {
+        whole.take_back();
+        moving.take_back();
       }
     }
     wrong += elsewhere(moving.points(), piece.local(whole.points()));
@@ -134,6 +137,29 @@ TEST_CASE("a rotor in pieces comes back to its first mesh to the bit, float or d
   check(std::array<float, 2>{});
   check(std::array<double, 2>{});
   check(std::array<double, 3>{});
+}
+
+TEST_CASE("ranks without vertices have no say in the type of the numbers") {
+  const test_meshes::Rotor rotor;
+  const RandomMesh mesh = rotor_mesh(rotor);
+  const Piece piece = plain_piece(mesh, std::vector<int>(mesh.mesh.triangles.size(), ranks() - 1));
+  const Points reference = piece.local(rotor.mesh.points);
+  trismooth::mpi::MovingMesh moving(MPI_COMM_WORLD, reference, piece.mesh());
+  trismooth::MovingMesh whole(rotor.mesh.points, rotor.mesh.indices());
+  std::vector<std::array<float, 2>> expected;
+  for (const Point p : rotor.at(0.3)) {
+    expected.push_back({static_cast<float>(p.x), static_cast<float>(p.y)});
+  }
+  std::vector<std::array<float, 2>> points = piece.local(expected);
+  whole.follow(expected);
+  if (points.empty()) {
+    Points none;
+    moving.follow(none);
+  } else {
+    moving.follow(points);
+  }
+  CHECK(said_by_any(points == piece.local(expected) ? "" : "other points") == "");
+  CHECK(said_by_any(elsewhere(moving.points(), piece.local(whole.points()))) == "");
 }
 
 TEST_CASE("numbers that are left out between ids of a mesh that moves are vertices that nobody has") {
@@ -208,8 +234,19 @@ TEST_CASE("what is wrong on one rank with a mesh that moves is said on all, and 
   CHECK(says(refusal([&] { moving.follow(points); }), "local vertices") == "");
   CHECK(said_by_any(elsewhere(moving.points(), before)) == "");
 
+  points = piece.local(rotor.at(0.2));
+  const std::string of_start =
+      refusal([&] { (void)moving.follow(points, is_last ? MovingStart::previous : MovingStart::reference); });
+  CHECK(says(of_start, ranks() > 1 ? "start" : "none") == "");
+  if (ranks() == 1) {
+    moving.take_back();
+  }
+  CHECK_THROWS_AS(moving.take_back(), std::logic_error);
+
   if (is_last) {
     piece.ids.back() = std::int64_t{1} << 31;
   }
-  CHECK(says(made({}, trismooth::moving_options()), "2147483648 is above that") == "");
+  const std::string of_ids = made({}, trismooth::moving_options());
+  CHECK(says(of_ids, "vertex_ids: ") == "");
+  CHECK(says(of_ids, ranks() > 1 ? fmt::format("rank {}: ", ranks() - 1) : "2147483648 is above that") == "");
 }

@@ -426,7 +426,11 @@ TEST_CASE("what a mesh cannot follow is refused, and nothing is written") {
       {{"--displacement-file", text("f.csv", "1 0 nan\n")}, "f.csv:1", 3},
       {{"--displacement-file", text("g.csv", "1 0 0 0.1\n")}, "out of the plane of the mesh", 3},
       {{"--displacement-file", text("h.csv", "")}, "gives no vertex", 2},
-      {{"--displacement-labels", "--displacement-file", table}, "no numbers of its own", 2},
+      {{"--displacement-labels", "--displacement-file", table},
+       "'--displacement-labels': a file of VTK XML (unstructured grid) gives its points no numbers of its own; the "
+       "text "
+       "without it takes their rows",
+       2},
       {{"--displacement-file", table, "--steps", table}, "excludes", 2},
       {{"--time-limit", "1"}, "time-limit", 2},
       {{"--geographic"}, "geographic", 2}};
@@ -586,6 +590,17 @@ TEST_CASE("middles that nothing is said of go with their sides, and are not said
   const std::vector<double> after = read_mesh(folder / "out.vtu").points;
   CHECK(after[3 * 5 + 1] == -1);
   CHECK(after[3 * 6 + 1] == 0.5);
+}
+
+TEST_CASE("a middle on the boundary may be all that is told where to go") {
+  const ScratchFolder folder;
+  write_mesh(folder / "in.vtu", quadratic_square());
+  const std::string table = folder.write("middle.csv", "5 0 -0.25\n").string();
+  const Outcome outcome =
+      deform({(folder / "in.vtu").string(), (folder / "out.vtu").string(), "--displacement-file", table});
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.says("4 vertices that are held are without a displacement"));
+  CHECK(read_mesh(folder / "out.vtu").points[3 * 5 + 1] == -0.25);
 }
 
 TEST_CASE("a step with a triangle of six nodes that is not valid is told, and is the worst") {

@@ -257,6 +257,68 @@ TEST_CASE("a mesh that lies over itself says so, though nothing is inverted and 
   }
 }
 
+TEST_CASE("a cavity whose faces go through each other says so, however little they do so beside its tips") {
+  // Squares around a lens from (3, 6) to (9, 6), which is open.
+  constexpr int side = 13;
+  constexpr int middle = 6;
+  Points open;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const bool is_of_lens = row == middle && column > 3 && column < 9;
+      open.push_back({double(column), is_of_lens ? row - 0.3 : row});
+    }
+  }
+  for (int column = 4; column < 9; ++column) {
+    open.push_back({double(column), middle + 0.3});
+  }
+  std::vector<std::int32_t> triangles;
+  for (int row = 0; row + 1 < side; ++row) {
+    for (int column = 0; column + 1 < side; ++column) {
+      const auto at = [row](int x, int y) {
+        return y == middle && row >= middle && x > 3 && x < 9 ? side * side + x - 4 : y * side + x;
+      };
+      triangles.insert(triangles.end(), {at(column, row), at(column + 1, row), at(column + 1, row + 1)});
+      triangles.insert(triangles.end(), {at(column, row), at(column + 1, row + 1), at(column, row + 1)});
+    }
+  }
+  MovingMesh moving(open, triangles);
+  for (const double beside_tips : {0.1, 1e-5, 1e-7, 1e-9, 1e-11, 1e-12, 1e-13, 1e-14}) {
+    CAPTURE(beside_tips);
+    Points through = open;
+    for (int column = 4; column < 9; ++column) {
+      const double by = column == 4 || column == 8 ? beside_tips : 0.3;
+      through[side * side + column - 4].y = middle - by;
+      through[middle * side + column].y = middle + by;
+    }
+    const FollowResult result = moving.follow(through);
+    CHECK((!result.overlaps.empty() || !result.crossings.empty()));
+    CHECK_FALSE(result.is_valid());
+    Points still_open = open;
+    for (const int column : {4, 8}) {
+      still_open[side * side + column - 4].y = middle + beside_tips;
+    }
+    CHECK(moving.follow(still_open).is_valid());
+  }
+}
+
+TEST_CASE("edges far from one that has become a point are not named") {
+  // A square hole in a triangle, and a corner of it that goes onto the next one.
+  const Points points{{0, 0}, {10, 0}, {0, 10}, {2, 2}, {3, 2}, {3, 3}, {2, 3}};
+  const std::vector<std::int32_t> triangles{0, 1, 3, 1, 4, 3, 1, 5, 4, 1, 2, 5, 2, 6, 5, 2, 0, 6, 0, 3, 6};
+  MovingMesh moving(points, triangles);
+  Points now = points;
+  now[4] = now[3];
+  const FollowResult result = moving.follow(now);
+  CHECK(result.smoothing.degenerate > 0);
+  CHECK_FALSE(result.crossings.empty());
+  for (const auto& [a, b, c, d] : result.crossings) {
+    CAPTURE(a, b, c, d);
+    const long double apart = std::min({distance_to(now, a, {c, d}), distance_to(now, b, {c, d}),
+                                        distance_to(now, c, {a, b}), distance_to(now, d, {a, b})});
+    CHECK((apart < 1e-9L || do_cross(now, {a, b}, {c, d})));
+  }
+}
+
 TEST_CASE("edges that come to lie on each other are named") {
   SECTION("where a vertex of a side goes past the next one") {
     const Mesh mesh = test_meshes::jittered_grid(7, 7, 0, 1);

@@ -342,6 +342,43 @@ TEST_CASE("a step that is taken back has not happened") {
   CHECK_THROWS_AS(moving.take_back(), std::logic_error);
 }
 
+TEST_CASE("calls that are refused leave the step before them, and callbacks do not use the mesh that calls them") {
+  const Rotor rotor;
+  MovingMesh* itself = nullptr;
+  int refused = 0;
+  SmoothingOptions options = smoothing_layers();
+  options.cancel = [&] {
+    if (itself != nullptr) {
+      Points other = rotor.at(0);
+      CHECK_THROWS_AS(itself->follow(other), std::logic_error);
+      CHECK_THROWS_AS(itself->go_on_from(other), std::logic_error);
+      CHECK_THROWS_AS(itself->take_back(), std::logic_error);
+      ++refused;
+    }
+    return false;
+  };
+  MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), options);
+  MovingMesh other(rotor.mesh.points, rotor.mesh.indices(), smoothing_layers());
+  Points first = rotor.at(4 * degree);
+  CHECK(moving.follow(first).is_valid());
+  Points second = rotor.at(20 * degree);
+  Points expected = second;
+  itself = &moving;
+  moving.follow(second, MovingStart::previous);
+  itself = nullptr;
+  CHECK(refused > 0);
+  other.go_on_from(first);
+  other.follow(expected, MovingStart::previous);
+  CHECK((second == expected));
+  Points bad = second;
+  bad[3].x = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(moving.follow(bad), MeshError);
+  bad.pop_back();
+  CHECK_THROWS_AS(moving.follow(bad), std::invalid_argument);
+  moving.take_back();
+  CHECK((moving.points() == first));
+}
+
 TEST_CASE("double points that are to be stored as float follow as float points do") {
   const Rotor rotor;
   MovingMesh moving(rotor.mesh.points, rotor.mesh.indices(), smoothing_layers());
