@@ -27,10 +27,10 @@ namespace {
 /// `ids`: what `what` calls them. Throws std::invalid_argument where one is no number of a mesh on one rank.
 void require_numbers(const ArrayView<std::int64_t>& ids, const char* what) {
   constexpr std::int64_t last = std::numeric_limits<std::int32_t>::max() - 1;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (ids[i] > last) {
+  for (const std::int64_t id : ids) {
+    if (id > last) {
       throw std::invalid_argument(std::string(what) + ": the whole of a mesh that moves is on rank 0, with ids up to " +
-                                  std::to_string(last) + "; " + std::to_string(ids[i]) + " is above that");
+                                  std::to_string(last) + "; " + std::to_string(id) + " is above that");
     }
   }
 }
