@@ -34,10 +34,10 @@ bool are_on_one_side(double c, double d) {
   return (c > 0 && d > 0) || (c < 0 && d < 0);
 }
 
-/// Whether two edges that leave one point lie on each other: to rounding, or so nearly that nobody sees by the angles
-/// around that point which of them comes first.
+/// Whether two edges that leave one point lie on each other: to rounding, or so nearly that Winding does not see which
+/// of them comes first.
 bool lie_on_each_other(Point2<double> from, Point2<double> a, Point2<double> b) {
-  constexpr double nearly = 1e-12;
+  constexpr double nearly = 2e-9;
   const double along = dot(a - from, b - from);
   return along > 0 && (area_beyond_rounding(from, a, b) == 0 || std::abs(cross(a - from, b - from)) < nearly * along);
 }

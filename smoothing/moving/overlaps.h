@@ -13,7 +13,7 @@ namespace trismooth {
 class Workers;
 
 /// The vertices around which a mesh lies over itself, ascending: the triangles around a free one (`held` is 0) go round
-/// it more than once, those around another one make an angle of more than a full turn, by 1e-12 of it or more. Where
+/// it more than once, those around another one make an angle of more than a full turn, by 1e-9 or more. Where
 /// there are none, no triangle is inverted and no edges of the boundary meet, a mesh lies over itself nowhere.
 /// `triangles` are listed clockwise where `reversed` is 1; `points`: in a frame in which a mesh is about 1 wide. The
 /// same for every number of threads. Complexity: linear.

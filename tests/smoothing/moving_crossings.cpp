@@ -254,6 +254,9 @@ TEST_CASE("a mesh that lies over itself says so, though nothing is inverted and 
     CHECK(result.smoothing.inverted == 0);
     CHECK(result.overlaps == std::vector<std::int32_t>{6, 8});
     CHECK(moving.follow(points).overlaps.empty());
+    Points to_rounding = points;
+    to_rounding[15].y = -1e-15;
+    CHECK(moving.follow(to_rounding).is_valid());
   }
 }
 
