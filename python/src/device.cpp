@@ -21,6 +21,7 @@
 #include "trismooth/python/device_array.h"
 #include "trismooth/python/device_points.h"
 #include "trismooth/python/errors.h"
+#include "trismooth/python/host_array.h"
 #include "trismooth/python/interruption.h"
 #include "trismooth/python/options.h"
 #include "trismooth/python/turns.h"

@@ -64,12 +64,12 @@ class DeviceMovingMesh : public PreparedMovingMesh<cuda::MovingMesh> {
 
   void go_on_from(nb::handle points) {
     const cuda::DeviceScope scope(device_);
-    PreparedMovingMesh::go_on_from(points);
+    start_at(points);
   }
 
   nb::object points() {
     const cuda::DeviceScope scope(device_);
-    return PreparedMovingMesh::points();
+    return last_points();
   }
 
  private:

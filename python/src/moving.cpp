@@ -41,9 +41,9 @@ void bind_moving(nb::module_& module) {
       .def("follow", &HostMovingMesh::follow, "points"_a, "out"_a, "start"_a, "quality"_a, "progress"_a.none(),
            "accept"_a)
       .def("take_back", &HostMovingMesh::take_back)
-      .def("go_on_from", &HostMovingMesh::go_on_from, "points"_a)
+      .def("go_on_from", &HostMovingMesh::start_at, "points"_a)
       .def_prop_ro("held", &HostMovingMesh::held)
-      .def_prop_ro("points", &HostMovingMesh::points)
+      .def_prop_ro("points", &HostMovingMesh::last_points)
       .def_prop_ro("vertex_count", &HostMovingMesh::vertex_count)
       .def_prop_ro("triangle_count", &HostMovingMesh::triangle_count);
 }

@@ -24,7 +24,8 @@ namespace trismooth::python {
 template <class M>
 class PreparedMovingMesh : public PreparedTriangles {
  public:
-  void go_on_from(nanobind::handle points) {
+  /// MovingMesh::go_on_from().
+  void start_at(nanobind::handle points) {
     const HostArray array(points, "points");
     in_turn(nanobind::none(), [&] {
       naming_arguments(
@@ -43,7 +44,8 @@ class PreparedMovingMesh : public PreparedTriangles {
     return new_array<bool, 1>(std::move(flags), {vertex_count()});
   }
 
-  nanobind::object points() {
+  /// MovingMesh::points().
+  nanobind::object last_points() {
     return new_array<double, 2>(in_turn(nanobind::none(), [this] { return mesh_->points(); }), {vertex_count(), 2});
   }
 
