@@ -170,6 +170,8 @@ nb::object following_of(const Outcome& outcome) {
     return nb::none();
   }
   nb::dict found;
+  // Of its smoothing the counts are still there, as they were when the call came to its end.
+  found["valid"] = outcome.followed->is_valid();
   found["min_relative_shape"] = outcome.followed->min_relative_shape;
   found["mean_relative_shape"] = outcome.followed->mean_relative_shape;
   found["invalid_held"] = outcome.followed->invalid_held;

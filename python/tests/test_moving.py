@@ -363,6 +363,10 @@ def test_a_mesh_is_valid_where_nothing_is_inverted_flat_or_over_itself():
     now[of_rotor] += [3.7, 0.1]
     with pytest.warns(trismooth.MeshWarning, match="take_back"):
         assert not mesh.follow(now).valid
+    hurried = trismooth.MovingMesh(points, triangles, time_limit=1e-9)
+    with pytest.warns(trismooth.MeshWarning, match="time was up"):
+        ended = hurried.follow(points, quality=True)
+    assert ended.inverted == 0 and ended.sweeps == 0 and not ended.valid
     with pytest.raises(ValueError, match="read-only"):
         mesh.held[0] = False
 

@@ -75,7 +75,7 @@ class FollowResult(Result):
     def valid(self) -> bool:
         """Whether a solver may go on with this mesh: no triangle is inverted or degenerate, and it lies over itself nowhere.
         False as well where the call was over before the first sweep."""
-        return self.inverted == 0 and self.degenerate == 0 and not self.crossings and not self.overlaps
+        return bool(_following(self._outcome)["valid"])
 
     @property
     def min_relative_shape(self) -> float:
