@@ -38,17 +38,12 @@ void require_numbers(const ArrayView<std::int64_t>& ids, const char* what) {
 /// What all ranks have is rank 0's overlap.
 Overlap gathered_on_first(const std::shared_ptr<const Communicator>& ranks, const LocalMesh& mesh,
                           const Constraints& constraints, int threads) {
-  std::vector<Triangle> converted;
-  std::span<const Triangle> triangles;
-  std::optional<Workers> workers;
   ranks->on_all([&] {
     require_numbers(mesh.vertex_ids, "vertex_ids");
     require_numbers(mesh.triangle_ids, "triangle_ids");
-    workers.emplace(threads);
-    triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
   });
   constexpr bool is_gathered = true;
-  return build_overlap(mesh, triangles, constraints, is_gathered, ranks, *workers);
+  return build_overlap(mesh, constraints, is_gathered, ranks, threads);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -331,6 +332,18 @@ class OverlapBuilder {
 Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
                       bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers) {
   return OverlapBuilder(mesh, triangles, constraints, is_gathered, std::move(communicator), workers).run();
+}
+
+Overlap build_overlap(const LocalMesh& mesh, const Constraints& constraints, bool is_gathered,
+                      const std::shared_ptr<const Communicator>& communicator, int threads) {
+  std::vector<Triangle> converted;
+  std::span<const Triangle> triangles;
+  std::optional<Workers> workers;
+  communicator->on_all([&] {
+    workers.emplace(threads);
+    triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
+  });
+  return build_overlap(mesh, triangles, constraints, is_gathered, communicator, *workers);
 }
 
 }  // namespace trismooth::mpi

@@ -56,4 +56,9 @@ struct Overlap {
 Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
                       bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers);
 
+/// build_overlap() of the triangles that `mesh` has, on so many threads. Collective. Throws, and complexity, as with
+/// triangles that have been read.
+Overlap build_overlap(const LocalMesh& mesh, const Constraints& constraints, bool is_gathered,
+                      const std::shared_ptr<const Communicator>& communicator, int threads);
+
 }  // namespace trismooth::mpi

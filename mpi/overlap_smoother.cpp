@@ -76,17 +76,8 @@ std::unique_ptr<OverlapSmoother> make_overlap_smoother(std::shared_ptr<const Com
   if (constraints.slide.along != Slide::off) {
     owners = OverlapSmoother::Owners::first;
   }
-  std::vector<Triangle> converted;
-  std::span<const Triangle> triangles;
-  std::optional<Workers> workers;
-  communicator->on_all([&] {
-    workers.emplace(agreed.threads);
-    triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
-  });
   Overlap overlap =
-      build_overlap(mesh, triangles, constraints, owners == OverlapSmoother::Owners::first, communicator, *workers);
-  workers.reset();
-  release(converted);
+      build_overlap(mesh, constraints, owners == OverlapSmoother::Owners::first, communicator, agreed.threads);
   return std::make_unique<OverlapSmoother>(std::move(communicator), std::move(overlap), agreed, constraints.slide,
                                            gather, owners);
 }
