@@ -130,7 +130,7 @@ class _OnDevice:
         if options.get("devices") is not None:
             raise ValueError("devices: are for arrays in memory of the host; arrays on a CUDA device are smoothed there")
         self._options = dict(options, backend="cuda")
-        # Kept: work is queued on it, also when memory is given back at the end.
+        # What is made keeps it: work is queued on it to the very end, where this object's own reference may be gone.
         self._stream = _stream(array, self._options.pop("stream", None))
         self._stream_number = _number_of(self._stream)
         self._triangles = triangles
@@ -215,10 +215,8 @@ class DeviceMovingMesh(_OnDevice):
         self, points: Any, out: Any, start: str, quality: bool, progress: Any, notes: Callable[[_core.Outcome], List[str]]
     ) -> Tuple[_core.Outcome, Any, Any, Any, List[str]]:
         def step(given: Any, into: Any, is_new: bool) -> _core.Outcome:
-            step_of: _core.Outcome = self._made.follow(
-                given, into, is_new, start, progress, lambda found: warn_of(notes(found))
-            )
-            return step_of
+            made: _core.DeviceMovingMesh = self._made
+            return made.follow(given, into, is_new, start, progress, lambda found: warn_of(notes(found)))
 
         outcome, result, triangles, before = self.smoothed(points, out, quality, step)
         outcome = self.on_host.renumbered(outcome)
