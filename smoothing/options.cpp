@@ -44,7 +44,7 @@ void SmoothingOptions::validate() const {
   require(proposal.accept <= Acceptance::always, "there is no such way to accept a proposal");
   require(max_sweeps >= 0, "the sweep limit must not be negative (0: no limit)");
   require(!mean_ratio.steady || max_sweeps > 0,
-          "a steady smoothing needs a limit of sweeps: moves die away, and may be long in coming to an end");
+          "max_sweeps: a steady smoothing, as of a mesh that moves, needs a limit from 1: its moves die away slowly");
   require(tolerance >= 0 && tolerance < std::numeric_limits<double>::infinity(),
           "the tolerance must be a number from 0");
   require(time_limit_seconds >= 0, "the time limit must not be negative");

@@ -204,6 +204,7 @@ def test_a_callback_ends_the_sweeps():
     ("arguments", "error", "message"),
     [
         ({"slide": "straight"}, ValueError, "slide"),
+        ({"max_sweeps": 0}, ValueError, "^max_sweeps: .*limit from 1"),
         ({"size": np.ones(624)}, TypeError, "size: a mesh that moves has the sizes of its reference"),
         ({"powr": 2}, TypeError, "'powr' is no option .did you mean 'power'"),
         ({"power": 99}, ValueError, "power"),
