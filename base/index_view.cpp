@@ -4,6 +4,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "trismooth/base/mesh_size.h"
@@ -16,40 +17,43 @@ void IndexView::require_whole_triangles(std::size_t numbers) {
   }
 }
 
-void IndexView::check(std::size_t columns) const {
-  if (columns != 3) {
-    throw std::invalid_argument("triangles: " + std::to_string(columns) + " vertex numbers each, expected three");
+void IndexView::check() const {
+  if (columns_ != 3 && columns_ != 4) {
+    throw std::invalid_argument("triangles: " + std::to_string(columns_) + " vertex numbers each, expected three");
   }
   if (first_ == nullptr && size_ > 0) {
     throw std::invalid_argument("triangles: a null pointer for " + std::to_string(size_) + " triangles");
   }
 }
 
-template <class T>
-void IndexView::convert(std::int64_t vertex_count, std::vector<Triangle>& converted) const {
+template <class T, class Corners>
+void IndexView::convert(std::int64_t vertex_count, std::vector<Corners>& converted) const {
   converted.resize(size_);
-  for (std::size_t t = 0; t < size_; ++t) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
+  for (std::size_t e = 0; e < size_; ++e) {
+    for (std::size_t corner = 0; corner < columns_; ++corner) {
       T index;
       std::memcpy(&index,
-                  first_ + static_cast<std::ptrdiff_t>(t) * triangle_stride_ +
+                  first_ + static_cast<std::ptrdiff_t>(e) * element_stride_ +
                       static_cast<std::ptrdiff_t>(corner) * corner_stride_,
                   sizeof(T));
-      if (!std::in_range<std::int32_t>(index)) {
-        throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(index), vertex_count);
+      const bool is_none = corner == 3 && index == static_cast<T>(no_corner);
+      if (!is_none && !std::in_range<std::int32_t>(index)) {
+        throw_no_such_vertex(static_cast<std::int64_t>(e), std::to_string(index), vertex_count,
+                             columns_ == 3 ? "triangle" : "element");
       }
-      converted[t][corner] = static_cast<std::int32_t>(index);
+      converted[e][corner] = static_cast<std::int32_t>(index);
     }
   }
 }
 
-std::span<const Triangle> IndexView::triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const {
-  static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
-  const bool are_triangles = !is_wide_ && is_signed_ && triangle_stride_ == sizeof(Triangle) &&
-                             corner_stride_ == sizeof(std::int32_t) &&
-                             reinterpret_cast<std::uintptr_t>(first_) % alignof(Triangle) == 0;
-  if (are_triangles) {
-    return {reinterpret_cast<const Triangle*>(first_), size_};
+template <class Corners>
+std::span<const Corners> IndexView::listed(std::int64_t vertex_count, std::vector<Corners>& converted) const {
+  static_assert(sizeof(Corners) == std::tuple_size_v<Corners> * sizeof(std::int32_t));
+  const bool is_as_it_is = !is_wide_ && is_signed_ && element_stride_ == sizeof(Corners) &&
+                           corner_stride_ == sizeof(std::int32_t) &&
+                           reinterpret_cast<std::uintptr_t>(first_) % alignof(Corners) == 0;
+  if (is_as_it_is) {
+    return {reinterpret_cast<const Corners*>(first_), size_};
   }
   if (is_wide_) {
     is_signed_ ? convert<std::int64_t>(vertex_count, converted) : convert<std::uint64_t>(vertex_count, converted);
@@ -57,6 +61,22 @@ std::span<const Triangle> IndexView::triangles(std::int64_t vertex_count, std::v
     is_signed_ ? convert<std::int32_t>(vertex_count, converted) : convert<std::uint32_t>(vertex_count, converted);
   }
   return converted;
+}
+
+std::span<const Triangle> IndexView::triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const {
+  if (columns_ != 3) {
+    throw std::invalid_argument(
+        "triangles: four vertex numbers each, expected three (quadrilaterals are for quality() alone)");
+  }
+  return listed(vertex_count, converted);
+}
+
+std::span<const MixedElement> IndexView::elements(std::int64_t vertex_count,
+                                                  std::vector<MixedElement>& converted) const {
+  if (columns_ != 4) {
+    throw std::invalid_argument("elements: three vertex numbers each, expected four");
+  }
+  return listed(vertex_count, converted);
 }
 
 }  // namespace trismooth

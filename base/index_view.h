@@ -24,8 +24,8 @@ concept Index = std::integral<std::remove_cv_t<T>> && !std::same_as<std::remove_
 template <class R>
 concept IndexNumbers = Numbers<R> && Index<NumberOf<R>> && Lasting<R>;
 template <class R>
-concept IndexTuples =
-    Tuples<R> && Index<TupleNumberOf<R>> && Lasting<R> && NumberTuple<std::ranges::range_value_t<R>>::size == 3;
+concept IndexTuples = Tuples<R> && Index<TupleNumberOf<R>> && Lasting<R> &&
+    (NumberTuple<std::ranges::range_value_t<R>>::size == 3 || NumberTuple<std::ranges::range_value_t<R>>::size == 4);
 template <class M>
 concept IndexMatrix = Matrix<M> && Index<MatrixNumberOf<M>> && Lasting<M>;
 template <class M>
@@ -33,13 +33,14 @@ concept TriangleMatrix = IndexMatrix<M> &&(ColumnsOf<M, 3, 3> || RowsOf<M, 3, 3>
 
 }  // namespace array_layout
 
-/// The triangles of a mesh where the caller keeps them: three vertex numbers each, from 0, of any type of 32 or 64
-/// bits. Nothing is copied to make one. The caller owns the memory and keeps it for as long as the view is used; a
+/// The elements of a mesh where the caller keeps them: three vertex numbers each, from 0, of any type of 32 or 64 bits,
+/// or four where quadrilaterals are among them: of a triangle the last is then -1 (of unsigned numbers the largest).
+/// Nothing is copied to make one. The caller owns the memory and keeps it for as long as the view is used; a
 /// function that takes a view does not look at the memory any more when it has returned.
 ///
 /// These convert to it by themselves: numbers one behind the other, three for each triangle (std::vector<std::int32_t>,
-/// std::span<const std::size_t>, ...), triples of them (std::vector<std::array<int, 3>>, ...) and Eigen matrices whose
-/// type says which way they lie (Eigen::Matrix3Xi, Eigen::Matrix<long, Eigen::Dynamic, 3>, ...). A
+/// std::span<const std::size_t>, ...), three or four of them together (std::vector<std::array<int, 3>>, ...) and Eigen
+/// matrices whose type says which way they lie (Eigen::Matrix3Xi, Eigen::Matrix<long, Eigen::Dynamic, 3>, ...). A
 /// temporary that owns its numbers is not taken: they would be gone with it.
 class IndexView {
  public:
@@ -49,7 +50,7 @@ class IndexView {
     require_whole_triangles(array_layout::number_count(numbers));
   }
 
-  /// Triangles of a type that is three numbers.
+  /// Elements of a type that is three numbers, or four.
   template <class R>
   requires array_layout::IndexTuples<R> IndexView(R&& triangles) : IndexView(array_layout::tuple_rows(triangles)) {}
 
@@ -58,50 +59,62 @@ class IndexView {
   requires array_layout::TriangleMatrix<M> IndexView(M&& matrix)
       : IndexView(array_layout::rows_by_type<3, 3>(matrix)) {}
 
-  /// One triangle a row. Throws std::invalid_argument where a row has not three numbers and where there are triangles
-  /// but no memory.
+  /// One element a row. Throws std::invalid_argument where a row has neither three numbers nor four and where there are
+  /// elements but no memory.
   template <class T>
   requires array_layout::Index<T>
   explicit IndexView(const NumberRows<T>& rows)
       : first_(reinterpret_cast<const std::byte*>(rows.first)),
         size_(rows.rows),
-        triangle_stride_(rows.row_stride),
+        columns_(rows.columns),
+        element_stride_(rows.row_stride),
         corner_stride_(rows.column_stride),
         is_wide_(sizeof(T) == sizeof(std::int64_t)),
         is_signed_(std::is_signed_v<T>) {
-    check(rows.columns);
+    check();
   }
 
-  /// Triangles.
+  /// Elements.
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// Whether there are four numbers of each, so that some may be quadrilaterals.
+  [[nodiscard]] bool may_have_quadrilaterals() const { return columns_ == 4; }
 
   /// The triangles as the library holds them: the caller's own memory where it has that form, else converted into
   /// `converted`. Throws MeshError for a number that is not one of the vertices and has no place in 32 bits; of all
-  /// others it is found later. Complexity: constant or linear.
+  /// others it is found later; std::invalid_argument where there are four numbers of each. Complexity: constant or
+  /// linear.
   [[nodiscard]] std::span<const Triangle> triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const;
+
+  /// Where there are four numbers of each: the elements as the library holds them, the caller's own memory or
+  /// `converted`. Throws MeshError as triangles() does. Complexity: constant or linear.
+  [[nodiscard]] std::span<const MixedElement> elements(std::int64_t vertex_count,
+                                                       std::vector<MixedElement>& converted) const;
 
  private:
   static void require_whole_triangles(std::size_t numbers);
-  void check(std::size_t columns) const;
-  template <class T>
-  void convert(std::int64_t vertex_count, std::vector<Triangle>& converted) const;
+  void check() const;
+  template <class Corners>
+  std::span<const Corners> listed(std::int64_t vertex_count, std::vector<Corners>& converted) const;
+  template <class T, class Corners>
+  void convert(std::int64_t vertex_count, std::vector<Corners>& converted) const;
 
   const std::byte* first_;
   std::size_t size_;
-  std::ptrdiff_t triangle_stride_;
+  std::size_t columns_;
+  std::ptrdiff_t element_stride_;
   std::ptrdiff_t corner_stride_;
   bool is_wide_;
   bool is_signed_;
 };
 
-/// An Eigen matrix of indices with a triangle a row (libigl's F), where its type does not tell (MatrixXi). Throws
-/// std::invalid_argument unless rows have three numbers.
+/// An Eigen matrix of indices with an element a row (libigl's F), where its type does not tell (MatrixXi). Throws
+/// std::invalid_argument unless rows have three numbers or four.
 template <array_layout::IndexMatrix M>
 [[nodiscard]] IndexView triangle_rows(M&& matrix) {
   return IndexView(array_layout::matrix_rows(matrix));
 }
-/// An Eigen matrix of indices with a triangle a column, where its type does not tell. Throws std::invalid_argument
-/// unless columns have three numbers.
+/// An Eigen matrix of indices with an element a column, where its type does not tell. Throws std::invalid_argument
+/// unless columns have three numbers or four.
 template <array_layout::IndexMatrix M>
 [[nodiscard]] IndexView triangle_columns(M&& matrix) {
   return IndexView(array_layout::matrix_columns(matrix));

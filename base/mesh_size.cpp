@@ -8,18 +8,19 @@
 
 namespace trismooth {
 
-void check_mesh_size(std::int64_t vertex_count, std::int64_t triangle_count) {
+void check_mesh_size(std::int64_t vertex_count, std::int64_t element_count, int corners) {
+  const std::string elements = corners == 3 ? "triangles" : "elements";
   if (vertex_count < 0) {
     throw MeshError("the number of vertices is negative");
   }
   if (vertex_count > std::numeric_limits<std::int32_t>::max()) {
     throw MeshError("more than 2147483647 vertices");
   }
-  if (triangle_count < 0) {
-    throw MeshError("the number of triangles is negative");
+  if (element_count < 0) {
+    throw MeshError("the number of " + elements + " is negative");
   }
-  if (triangle_count > std::numeric_limits<std::int32_t>::max() / 3) {
-    throw MeshError("more than 715827882 triangles");
+  if (const std::int64_t most = std::numeric_limits<std::int32_t>::max() / corners; element_count > most) {
+    throw MeshError("more than " + std::to_string(most) + " " + elements);
   }
 }
 
@@ -38,8 +39,10 @@ std::string numbering_text(std::int64_t vertex_count) {
                            : "; vertices are numbered from 0 to " + std::to_string(vertex_count - 1);
 }
 
-void throw_no_such_vertex(std::int64_t triangle, const std::string& vertex, std::int64_t vertex_count) {
-  throw MeshError("triangle " + std::to_string(triangle) + " names vertex " + vertex + numbering_text(vertex_count));
+void throw_no_such_vertex(std::int64_t element, const std::string& vertex, std::int64_t vertex_count,
+                          std::string_view name) {
+  throw MeshError(std::string(name) + " " + std::to_string(element) + " names vertex " + vertex +
+                  numbering_text(vertex_count));
 }
 
 }  // namespace trismooth

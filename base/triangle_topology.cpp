@@ -5,6 +5,7 @@
 #include <atomic>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "trismooth/base/edge_matching.h"
@@ -21,77 +22,101 @@ namespace {
 
 constexpr std::int64_t topology_grain = 4096;
 
-/// Checks the triangles, and finds the lowest corner of every vertex.
-void find_corners(std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
+/// Elements of one array: triangles, or with quadrilaterals among them.
+template <class Corners>
+using Elements = std::span<const Corners>;
+
+/// Halfedges an element of the array.
+template <class Corners>
+constexpr std::int32_t stride = sides_of<Elements<Corners>>;
+
+/// What an error calls one.
+template <class Corners>
+constexpr std::string_view element_name = stride<Corners> == 3 ? "triangle" : "element";
+
+/// Calls body(element, corners that it has) for each, on all workers.
+template <class Corners, class Body>
+void for_elements(Elements<Corners> elements, Workers& workers, const Body& body) {
+  workers.for_blocks(std::ssize(elements), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      body(e, corner_count(elements[e]));
+    }
+  });
+}
+
+/// Checks the elements, and finds the lowest corner of every vertex.
+template <class Corners>
+void find_corners(Elements<Corners> elements, MatchedSides& sides, Workers& workers) {
   workers.for_blocks(sides.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
     std::fill(sides.corner.begin() + begin, sides.corner.begin() + end, -1);
   });
   std::atomic<bool> faulty{false};
-  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      if (is_faulty(sides.vertex_count, triangles[t])) {
+  workers.for_blocks(std::ssize(elements), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      if (is_faulty(sides.vertex_count, elements[e])) {
         faulty = true;
         return;
       }
-      for (std::int32_t i = 0; i < 3; ++i) {
-        lower_relaxed(sides.corner[triangles[t][i]], static_cast<std::int32_t>(3 * t + i));
+      for (std::int32_t i = 0; i < corner_count(elements[e]); ++i) {
+        lower_relaxed(sides.corner[elements[e][i]], static_cast<std::int32_t>(stride<Corners> * e + i));
       }
     }
   });
   if (faulty) {
-    check_triangles(sides.vertex_count, triangles);
+    check_triangles(sides.vertex_count, elements);
   }
 }
 
-/// Takes edges between two ghosts for edges of many triangles: it is not known how many there are.
-void part_at_ghosts(std::span<const Triangle> triangles, std::span<const std::uint8_t> ghosts, MatchedSides& sides,
+/// Takes edges between two ghosts for edges of many elements: it is not known how many there are.
+template <class Corners>
+void part_at_ghosts(Elements<Corners> elements, std::span<const std::uint8_t> ghosts, MatchedSides& sides,
                     Workers& workers) {
-  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      for (std::int32_t i = 0; i < 3; ++i) {
-        if (ghosts[triangles[t][i]] != 0 && ghosts[triangles[t][(i + 1) % 3]] != 0) {
-          sides.twins[3 * t + i] = MatchedSides::many_twins;
-        }
+  for_elements(elements, workers, [&](std::int64_t e, std::int32_t corners) {
+    for (std::int32_t i = 0; i < corners; ++i) {
+      if (ghosts[elements[e][i]] != 0 && ghosts[elements[e][(i + 1) % corners]] != 0) {
+        sides.twins[stride<Corners> * e + i] = MatchedSides::many_twins;
       }
     }
   });
 }
 
 /// Marks isolated vertices and those of boundary and non-manifold edges.
-void mark_held(std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
+template <class Corners>
+void mark_held(Elements<Corners> elements, MatchedSides& sides, Workers& workers) {
   workers.for_blocks(sides.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t v = begin; v < end; ++v) {
       sides.hold[v] = sides.corner[v] < 0 ? hold::isolated : std::uint8_t{0};
     }
   });
-  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      for (std::int32_t i = 0; i < 3; ++i) {
-        if (const std::int32_t twin = sides.twins[3 * t + i]; twin < 0) {
-          const std::uint8_t bit = twin == MatchedSides::no_twin ? hold::boundary : hold::non_manifold;
-          set_bits_relaxed(sides.hold[triangles[t][i]], bit);
-          set_bits_relaxed(sides.hold[triangles[t][(i + 1) % 3]], bit);
-        }
+  for_elements(elements, workers, [&](std::int64_t e, std::int32_t corners) {
+    for (std::int32_t i = 0; i < corners; ++i) {
+      if (const std::int32_t twin = sides.twins[stride<Corners> * e + i]; twin < 0) {
+        const std::uint8_t bit = twin == MatchedSides::no_twin ? hold::boundary : hold::non_manifold;
+        set_bits_relaxed(sides.hold[elements[e][i]], bit);
+        set_bits_relaxed(sides.hold[elements[e][(i + 1) % corners]], bit);
       }
     }
   });
 }
 
-/// Whether the triangles on both sides of a halfedge are listed against each other (1) or alike (0): then they run
+/// Whether the elements on both sides of a halfedge are listed against each other (1) or alike (0): then they run
 /// through their edge in opposite directions.
-std::uint32_t are_against(std::span<const Triangle> triangles, std::int64_t halfedge, std::int32_t twin) {
-  return triangles[halfedge / 3][halfedge % 3] == triangles[twin / 3][twin % 3] ? 1 : 0;
+template <class Corners>
+std::uint32_t are_against(Elements<Corners> elements, std::int64_t halfedge, std::int32_t twin) {
+  return start_of(elements, static_cast<std::int32_t>(halfedge)) == start_of(elements, twin) ? 1 : 0;
 }
 
-/// Joins the two triangles of every edge whose lower triangle is in [begin, end). False where an edge contradicts the
+/// Joins the two elements of every edge whose lower element is in [begin, end). False where an edge contradicts the
 /// others.
-bool join_neighbours(const ParityForest& forest, std::span<const Triangle> triangles,
-                     std::span<const std::int32_t> twins, std::int64_t begin, std::int64_t end) {
-  for (std::int64_t t = begin; t < end; ++t) {
-    for (std::int64_t h = 3 * t; h < 3 * t + 3; ++h) {
+template <class Corners>
+bool join_neighbours(const ParityForest& forest, Elements<Corners> elements, std::span<const std::int32_t> twins,
+                     std::int64_t begin, std::int64_t end) {
+  constexpr std::int32_t sides = stride<Corners>;
+  for (std::int64_t e = begin; e < end; ++e) {
+    for (std::int64_t h = sides * e; h < sides * e + sides; ++h) {
       const std::int32_t twin = twins[h];
-      if (twin > h && forest.join(static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(twin / 3),
-                                  are_against(triangles, h, twin)) == ParityForest::Join::contradicted) {
+      if (twin > h && forest.join(static_cast<std::uint32_t>(e), static_cast<std::uint32_t>(twin / sides),
+                                  are_against(elements, h, twin)) == ParityForest::Join::contradicted) {
         return false;
       }
     }
@@ -101,47 +126,52 @@ bool join_neighbours(const ParityForest& forest, std::span<const Triangle> trian
 
 /// Throws the error of a component that cannot be oriented. Which edge contradicts the others depends on the order: the
 /// one to name is found in that of the halfedges.
-[[noreturn]] void throw_one_sided(const ParityForest& forest, std::span<const Triangle> triangles,
+template <class Corners>
+[[noreturn]] void throw_one_sided(const ParityForest& forest, Elements<Corners> elements,
                                   std::span<const std::int32_t> twins) {
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    forest.plant(static_cast<std::uint32_t>(t));
+  constexpr std::int32_t sides = stride<Corners>;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    forest.plant(static_cast<std::uint32_t>(e));
   }
   std::int64_t h = 0;
-  while (twins[h] <= h || forest.join(static_cast<std::uint32_t>(h / 3), static_cast<std::uint32_t>(twins[h] / 3),
-                                      are_against(triangles, h, twins[h])) != ParityForest::Join::contradicted) {
+  while (twins[h] <= h ||
+         forest.join(static_cast<std::uint32_t>(h / sides), static_cast<std::uint32_t>(twins[h] / sides),
+                     are_against(elements, h, twins[h])) != ParityForest::Join::contradicted) {
     ++h;
   }
-  throw MeshError("the triangles connected with triangle " + std::to_string(h / 3) +
+  const std::string name(element_name<Corners>);
+  throw MeshError("the " + name + "s connected with " + name + " " + std::to_string(h / sides) +
                   " cannot be oriented consistently (a one-sided surface)");
 }
 
-void find_components(std::span<const Triangle> triangles, MatchedSides& sides, Workers& workers) {
-  const std::int64_t count = std::ssize(triangles);
-  BulkVector<std::uint32_t> words(triangles.size());
+template <class Corners>
+void find_components(Elements<Corners> elements, MatchedSides& sides, Workers& workers) {
+  const std::int64_t count = std::ssize(elements);
+  BulkVector<std::uint32_t> words(elements.size());
   const ParityForest forest{words.data()};
   workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      forest.plant(static_cast<std::uint32_t>(t));
+    for (std::int64_t e = begin; e < end; ++e) {
+      forest.plant(static_cast<std::uint32_t>(e));
     }
   });
   std::atomic<bool> contradicted{false};
   workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    if (!join_neighbours(forest, triangles, sides.twins, begin, end)) {
+    if (!join_neighbours(forest, elements, sides.twins, begin, end)) {
       contradicted = true;
     }
   });
   if (contradicted) {
-    throw_one_sided(forest, triangles, sides.twins);
+    throw_one_sided(forest, elements, sides.twins);
   }
-  sides.parity.resize(triangles.size());
-  sides.component.resize(triangles.size());
+  sides.parity.resize(elements.size());
+  sides.component.resize(elements.size());
   std::atomic<bool> against{false};
   workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
     std::uint32_t any = 0;
-    for (std::int64_t t = begin; t < end; ++t) {
-      const auto root = forest.find(static_cast<std::uint32_t>(t));
-      sides.parity[t] = static_cast<std::uint8_t>(root.parity);
-      sides.component[t] = static_cast<std::int32_t>(root.element);
+    for (std::int64_t e = begin; e < end; ++e) {
+      const auto root = forest.find(static_cast<std::uint32_t>(e));
+      sides.parity[e] = static_cast<std::uint8_t>(root.parity);
+      sides.component[e] = static_cast<std::int32_t>(root.element);
       any |= root.parity;
     }
     if (any != 0) {
@@ -151,18 +181,18 @@ void find_components(std::span<const Triangle> triangles, MatchedSides& sides, W
   sides.alike = !against;
   // A root's word has served, and takes its component's number.
   sides.components = static_cast<std::int32_t>(for_each_numbered(
-      count, [&](std::int64_t t) { return sides.component[t] == t; },
-      [&](std::int64_t number, std::int64_t t) { words[t] = static_cast<std::uint32_t>(number); }, workers));
+      count, [&](std::int64_t e) { return sides.component[e] == e; },
+      [&](std::int64_t number, std::int64_t e) { words[e] = static_cast<std::uint32_t>(number); }, workers));
   workers.for_blocks(count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      sides.component[t] = static_cast<std::int32_t>(words[sides.component[t]]);
+    for (std::int64_t e = begin; e < end; ++e) {
+      sides.component[e] = static_cast<std::int32_t>(words[sides.component[e]]);
     }
   });
 }
 
 /// The corners of the fan that `first` is in.
-template <class Corners>
-std::int32_t fan_size(const Corners& corners, std::int32_t first) {
+template <class Around>
+std::int32_t fan_size(const Around& corners, std::int32_t first) {
   std::int32_t size = 1;
   std::int32_t corner = corners.after(first);
   for (; corner >= 0 && corner != first; corner = corners.after(corner)) {
@@ -177,31 +207,46 @@ std::int32_t fan_size(const Corners& corners, std::int32_t first) {
   return size;
 }
 
-/// Calls visit(vertex, corner) for the lowest corner of every vertex. In the order of the triangles: files list them
+/// Calls visit(vertex, corner) for the lowest corner of every vertex. In the order of the elements: files list them
 /// with more locality than vertices.
-template <class Visit>
-void for_lowest_corners(std::span<const Triangle> triangles, const MatchedSides& sides, Workers& workers,
-                        const Visit& visit) {
-  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      for (std::int32_t i = 0; i < 3; ++i) {
-        const std::int32_t v = triangles[t][i];
-        if (const auto corner = static_cast<std::int32_t>(3 * t + i); sides.corner[v] == corner) {
-          visit(v, corner);
-        }
+template <class Corners, class Visit>
+void for_lowest_corners(Elements<Corners> elements, const MatchedSides& sides, Workers& workers, const Visit& visit) {
+  for_elements(elements, workers, [&](std::int64_t e, std::int32_t corners) {
+    for (std::int32_t i = 0; i < corners; ++i) {
+      const std::int32_t v = elements[e][i];
+      if (const auto corner = static_cast<std::int32_t>(stride<Corners> * e + i); sides.corner[v] == corner) {
+        visit(v, corner);
       }
     }
   });
 }
 
-/// Counts the triangles of each vertex, and marks vertices whose triangles form more than one fan.
-void find_fans(std::span<const Triangle> triangles, TriangleTopology& topology, Workers& workers) {
+/// All corners of the elements.
+template <class Corners>
+std::int64_t count_corners(Elements<Corners> elements, Workers& workers) {
+  if constexpr (stride<Corners> == 3) {
+    return 3 * std::ssize(elements);
+  }
+  std::atomic<std::int64_t> count{0};
+  workers.for_blocks(std::ssize(elements), topology_grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t of_block = 0;
+    for (std::int64_t e = begin; e < end; ++e) {
+      of_block += corner_count(elements[e]);
+    }
+    count.fetch_add(of_block, std::memory_order_relaxed);
+  });
+  return count;
+}
+
+/// Counts the elements of each vertex, and marks vertices whose elements form more than one fan.
+template <class Corners>
+void find_fans(Elements<Corners> elements, TriangleTopology& topology, Workers& workers) {
   topology.degree.resize(static_cast<std::size_t>(topology.vertex_count));
   workers.for_blocks(topology.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
     std::fill(topology.degree.begin() + begin, topology.degree.begin() + end, 0);
   });
-  with_corners(topology, triangles, topology.parity, workers, [&](const auto& corners) {
-    for_lowest_corners(triangles, topology, workers,
+  with_corners(topology, elements, topology.parity, workers, [&](const auto& corners) {
+    for_lowest_corners(elements, topology, workers,
                        [&](std::int32_t v, std::int32_t corner) { topology.degree[v] = fan_size(corners, corner); });
   });
   std::atomic<std::int64_t> in_fans{0};
@@ -209,17 +254,15 @@ void find_fans(std::span<const Triangle> triangles, TriangleTopology& topology, 
     in_fans.fetch_add(std::accumulate(topology.degree.begin() + begin, topology.degree.begin() + end, std::int64_t{0}),
                       std::memory_order_relaxed);
   });
-  if (in_fans == 3 * std::ssize(triangles)) {
+  if (in_fans == count_corners(elements, workers)) {
     return;
   }
   // There are corners outside of the first fans of their vertices.
   BulkVector<std::int32_t> fan = std::move(topology.degree);
   topology.degree.assign(static_cast<std::size_t>(topology.vertex_count), 0);
-  workers.for_blocks(std::ssize(triangles), topology_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      for (const std::int32_t v : triangles[t]) {
-        std::atomic_ref(topology.degree[v]).fetch_add(1, std::memory_order_relaxed);
-      }
+  for_elements(elements, workers, [&](std::int64_t e, std::int32_t corners) {
+    for (std::int32_t i = 0; i < corners; ++i) {
+      std::atomic_ref(topology.degree[elements[e][i]]).fetch_add(1, std::memory_order_relaxed);
     }
   });
   workers.for_blocks(topology.vertex_count, topology_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -231,20 +274,56 @@ void find_fans(std::span<const Triangle> triangles, TriangleTopology& topology, 
   });
 }
 
+template <class Corners>
+void check(std::int32_t vertex_count, Elements<Corners> elements) {
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto corners = std::span(elements[e]).first(static_cast<std::size_t>(corner_count(elements[e])));
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i] < 0 || corners[i] >= vertex_count) {
+        throw_no_such_vertex(static_cast<std::int64_t>(e), std::to_string(corners[i]), vertex_count,
+                             element_name<Corners>);
+      }
+    }
+    if (is_faulty(vertex_count, elements[e])) {
+      throw MeshError(std::string(element_name<Corners>) + " " + std::to_string(e) + " repeats a vertex");
+    }
+  }
+}
+
+template <class Corners>
+MatchedSides sides_matched(std::int32_t vertex_count, Elements<Corners> elements, Workers& workers,
+                           std::span<const std::uint8_t> ghosts) {
+  check_mesh_size(vertex_count, std::ssize(elements), stride<Corners>);
+  MatchedSides sides;
+  sides.vertex_count = vertex_count;
+  sides.corner.resize(static_cast<std::size_t>(vertex_count));
+  find_corners(elements, sides, workers);
+  sides.twins.resize(stride<Corners> * elements.size());
+  match_edges(elements, sides.corner, sides.twins, workers);
+  if (!ghosts.empty()) {
+    part_at_ghosts(elements, ghosts, sides, workers);
+  }
+  sides.hold.resize(static_cast<std::size_t>(vertex_count));
+  mark_held(elements, sides, workers);
+  find_components(elements, sides, workers);
+  return sides;
+}
+
+template <class Corners>
+TriangleTopology elements_connected(std::int32_t vertex_count, Elements<Corners> elements, Workers& workers,
+                                    std::span<const std::uint8_t> ghosts) {
+  TriangleTopology topology{sides_matched(vertex_count, elements, workers, ghosts), {}};
+  find_fans(elements, topology, workers);
+  return topology;
+}
+
 }  // namespace
 
 void check_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles) {
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles[t];
-    for (const std::int32_t v : {a, b, c}) {
-      if (v < 0 || v >= vertex_count) {
-        throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(v), vertex_count);
-      }
-    }
-    if (a == b || b == c || c == a) {
-      throw MeshError("triangle " + std::to_string(t) + " repeats a vertex");
-    }
-  }
+  check(vertex_count, triangles);
+}
+void check_triangles(std::int32_t vertex_count, std::span<const MixedElement> elements) {
+  check(vertex_count, elements);
 }
 
 Uniform uniform(std::span<const std::uint8_t> flags, Workers& workers) {
@@ -267,27 +346,20 @@ Uniform uniform(std::span<const std::uint8_t> flags, Workers& workers) {
 
 MatchedSides match_sides(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers,
                          std::span<const std::uint8_t> ghosts) {
-  check_mesh_size(vertex_count, std::ssize(triangles));
-  MatchedSides sides;
-  sides.vertex_count = vertex_count;
-  sides.corner.resize(static_cast<std::size_t>(vertex_count));
-  find_corners(triangles, sides, workers);
-  sides.twins.resize(3 * triangles.size());
-  match_edges(triangles, sides.corner, sides.twins, workers);
-  if (!ghosts.empty()) {
-    part_at_ghosts(triangles, ghosts, sides, workers);
-  }
-  sides.hold.resize(static_cast<std::size_t>(vertex_count));
-  mark_held(triangles, sides, workers);
-  find_components(triangles, sides, workers);
-  return sides;
+  return sides_matched(vertex_count, triangles, workers, ghosts);
+}
+MatchedSides match_sides(std::int32_t vertex_count, std::span<const MixedElement> elements, Workers& workers,
+                         std::span<const std::uint8_t> ghosts) {
+  return sides_matched(vertex_count, elements, workers, ghosts);
 }
 
 TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const Triangle> triangles, Workers& workers,
                                    std::span<const std::uint8_t> ghosts) {
-  TriangleTopology topology{match_sides(vertex_count, triangles, workers, ghosts), {}};
-  find_fans(triangles, topology, workers);
-  return topology;
+  return elements_connected(vertex_count, triangles, workers, ghosts);
+}
+TriangleTopology connect_triangles(std::int32_t vertex_count, std::span<const MixedElement> elements, Workers& workers,
+                                   std::span<const std::uint8_t> ghosts) {
+  return elements_connected(vertex_count, elements, workers, ghosts);
 }
 
 }  // namespace trismooth

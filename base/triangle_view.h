@@ -13,14 +13,31 @@ namespace trismooth {
 /// Indices of a triangle's three corners.
 using Triangle = std::array<std::int32_t, 3>;
 
-/// The triangles of one mesh for evaluation. All views; the caller owns.
-struct TriangleView {
+/// Indices of the corners of a triangle or a quadrilateral, in turn, for meshes that have both: the last one of a
+/// triangle is no_corner.
+using MixedElement = std::array<std::int32_t, 4>;
+inline constexpr std::int32_t no_corner = -1;
+
+/// How many corners there are.
+constexpr int corner_count(const Triangle& /*triangle*/) {
+  return 3;
+}
+constexpr int corner_count(const MixedElement& element) {
+  return element[3] == no_corner ? 3 : 4;
+}
+
+/// The elements of one mesh for evaluation, or those of one kind: triangles, or quadrilaterals. All views; the caller
+/// owns.
+template <class Corners>
+struct ElementView {
   std::span<const Point2<double>> points;  ///< in the local frame
-  std::span<const Triangle> triangles;     ///< corners within points, in the order of the file
-  std::span<const std::uint8_t> reversed;  ///< 1 where the triangle is listed clockwise relative to the positive
+  std::span<const Corners> elements;       ///< corners within points, in the order of the file
+  std::span<const std::uint8_t> reversed;  ///< 1 where the element is listed clockwise relative to the positive
                                            ///< orientation of its component; empty: none is
   int exponent = 0;                        ///< of the local frame: lengths in the file are local * 2^exponent
 };
+using TriangleView = ElementView<Triangle>;
+using QuadrilateralView = ElementView<MixedElement>;  ///< no triangles are among them
 
 /// The corners in the order in which an element's quality is evaluated everywhere outside one-rings (report, guard):
 /// counter-clockwise in the consistent orientation, the smallest index first. So every evaluation of an element gives
@@ -35,9 +52,24 @@ constexpr Triangle canonical_corners(const Triangle& triangle, bool reversed) {
   return {c_first ? c : (b_first ? b : a), c_first ? a : (b_first ? c : b), c_first ? b : (b_first ? a : c)};
 }
 
-/// The canonical corners of triangle `index` of the view.
-constexpr Triangle canonical_corners(const TriangleView& view, std::size_t index) {
-  return canonical_corners(view.triangles[index], !view.reversed.empty() && view.reversed[index] != 0);
+/// Those of a triangle or a quadrilateral.
+constexpr MixedElement canonical_corners(const MixedElement& element, bool reversed) {
+  if (element[3] == no_corner) {
+    const Triangle corners = canonical_corners(Triangle{element[0], element[1], element[2]}, reversed);
+    return {corners[0], corners[1], corners[2], no_corner};
+  }
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    first = element[i] < element[first] ? i : first;
+  }
+  const std::size_t step = reversed ? 3 : 1;
+  return {element[first], element[(first + step) % 4], element[(first + 2) % 4], element[(first + 3 * step) % 4]};
+}
+
+/// The canonical corners of element `index` of the view.
+template <class Corners>
+constexpr Corners canonical_corners(const ElementView<Corners>& view, std::size_t index) {
+  return canonical_corners(view.elements[index], !view.reversed.empty() && view.reversed[index] != 0);
 }
 
 }  // namespace trismooth

@@ -128,7 +128,7 @@ Shapes shapes_of(std::vector<double> values) {
 void measure(const TriangleView& view, std::span<const std::uint8_t> fixed, Row& row) {
   std::vector<double> of_free;
   std::vector<double> of_all;
-  for (std::size_t t = 0; t < view.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < view.elements.size(); ++t) {
     const auto [a, b, c] = canonical_corners(view, t);
     of_all.push_back(shape(view.points[a], view.points[b], view.points[c]));
     if (fixed[a] == 0 || fixed[b] == 0 || fixed[c] == 0) {

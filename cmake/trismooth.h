@@ -11,6 +11,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/repeated_triangles.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/quadrilateral_quality.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/quality/quality_report.h"
 #include "trismooth/quality/region_area.h"

@@ -57,7 +57,7 @@ std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const
       const bool is_worse = info(metric).larger_is_better ? value < of_cell : value > of_cell;
       of_cell = has_others && !is_worse ? of_cell : value;
     };
-    workers.for_blocks(std::ssize(view.triangles), annotation_grain, [&](std::int64_t begin, std::int64_t end) {
+    workers.for_blocks(std::ssize(view.elements), annotation_grain, [&](std::int64_t begin, std::int64_t end) {
       const std::size_t first = next_of_other_cell(cells, static_cast<std::size_t>(begin));
       const std::size_t last = next_of_other_cell(cells, static_cast<std::size_t>(end));
       for (std::size_t t = first; t < last; ++t) {

@@ -64,13 +64,13 @@ class BoundarySearch {
   template <class Found, class Look>
   std::vector<Found> found_in_triangles(const Look& look) {
     constexpr std::int64_t grain = 16384;
-    return joined_lists<Found>(std::ssize(view_.triangles), grain, workers_, look);
+    return joined_lists<Found>(std::ssize(view_.elements), grain, workers_, look);
   }
 
   /// The edges of one triangle alone. Their ends are all on the boundary, so few others have to be looked at.
   void collect_edges() {
     auto candidates = found_in_triangles<BoundaryEdge>([&](std::int64_t t, std::vector<BoundaryEdge>& found) {
-      const Triangle& corners = view_.triangles[t];
+      const Triangle& corners = view_.elements[t];
       if (int{on_boundary(corners[0])} + int{on_boundary(corners[1])} + int{on_boundary(corners[2])} < 2) {
         return;
       }
@@ -103,7 +103,7 @@ class BoundarySearch {
       is_apex[apex] = held_[apex] == 0 ? 1 : 0;
     }
     spokes_ = found_in_triangles<Spoke>([&](std::int64_t t, std::vector<Spoke>& found) {
-      if (std::ranges::none_of(view_.triangles[t], [&](std::int32_t v) { return is_apex[v] != 0; })) {
+      if (std::ranges::none_of(view_.elements[t], [&](std::int32_t v) { return is_apex[v] != 0; })) {
         return;
       }
       const Triangle corners = canonical_corners(view_, t);

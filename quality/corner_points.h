@@ -15,28 +15,30 @@
 namespace trismooth {
 
 /// The corners of an element of the view, in canonical order.
-inline CornerPoints corner_points(const TriangleView& view, std::size_t element) {
+template <class Corners>
+inline auto corner_points(const ElementView<Corners>& view, std::size_t element) {
   return points_of(canonical_corners(view, element), view.points);
 }
 
-/// Calls body(first, corners) for triangles [begin, end) of the view in order, some hundred at a time: `corners` are
-/// those of triangle `first` and its successors. They are gathered before anything is computed, and asked for earlier
+/// Calls body(first, corners) for elements [begin, end) of the view in order, some hundred at a time: `corners` are
+/// those of element `first` and its successors. They are gathered before anything is computed, and asked for earlier
 /// still, since only that overlaps the cache misses of a mesh in random order. (No more at a time: the stack of a
 /// program that has no memory left does not grow.)
-template <class Body>
-void for_corners(const TriangleView& view, std::size_t begin, std::size_t end, const Body& body) {
+template <class Corners, class Body>
+void for_corners(const ElementView<Corners>& view, std::size_t begin, std::size_t end, const Body& body) {
+  using Points = decltype(corner_points(view, begin));
   constexpr std::size_t at_once = 256;
   constexpr std::size_t ahead = 48;
-  std::array<CornerPoints, at_once> corners;
+  std::array<Points, at_once> corners;
   for (std::size_t first = begin; first < end; first += at_once) {
     const std::size_t count = std::min(at_once, end - first);
     for (std::size_t i = 0; i < count; ++i) {
-      for (const std::int32_t v : view.triangles[std::min(first + i + ahead, view.triangles.size() - 1)]) {
+      for (const std::int32_t v : view.elements[std::min(first + i + ahead, view.elements.size() - 1)]) {
         prefetch(&view.points[static_cast<std::size_t>(v)]);
       }
       corners[i] = corner_points(view, first + i);
     }
-    body(first, std::span<const CornerPoints>(corners).first(count));
+    body(first, std::span<const Points>(corners).first(count));
   }
 }
 

@@ -5,14 +5,14 @@
 #include <cstdint>
 
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/quality/quadrilateral_quality.h"
 #include "trismooth/quality/triangle_quality.h"
 
 /// What the guard, reports, regions and all others that go over a mesh ask of an element: a function for each kind of
 /// element, by its corners or by their points. Corners are in canonical order (see canonical_corners()) wherever bits
 /// count.
 ///
-/// All elements are triangles. Another kind has its own array of corners, the functions here and those for its metrics
-/// (metrics.h).
+/// A triangle has three corners, a quadrilateral four: MixedElement with no no_corner among them.
 namespace trismooth {
 
 /// The corners from the one on of which number(v) is the smallest, in the same sense of rotation: canonical order where
@@ -34,10 +34,16 @@ template <class T>
 using TrianglePoints = std::array<Point2<T>, 3>;
 using CornerPoints = TrianglePoints<double>;
 
+using QuadrilateralPoints = std::array<Point2<double>, 4>;
+
 /// The points of these corners, where position(v) is vertex v.
 template <class Position>
 constexpr TRISMOOTH_HOST_DEVICE auto points_of(const Triangle& corners, const Position& position) {
   return TrianglePoints<decltype(position(0).x)>{position(corners[0]), position(corners[1]), position(corners[2])};
+}
+template <class Position>
+constexpr QuadrilateralPoints points_of(const MixedElement& corners, const Position& position) {
+  return {position(corners[0]), position(corners[1]), position(corners[2]), position(corners[3])};
 }
 /// The points of these corners, where points[v] is vertex v.
 template <class Points>
@@ -45,6 +51,13 @@ requires requires(const Points& points) {
   points[0];
 }
 constexpr TRISMOOTH_HOST_DEVICE auto points_of(const Triangle& corners, const Points& points) {
+  return points_of(corners, [&](std::int32_t v) { return points[v]; });
+}
+template <class Points>
+requires requires(const Points& points) {
+  points[0];
+}
+constexpr QuadrilateralPoints points_of(const MixedElement& corners, const Points& points) {
   return points_of(corners, [&](std::int32_t v) { return points[v]; });
 }
 
@@ -57,17 +70,27 @@ template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T shape(const TrianglePoints<T>& corners) {
   return shape(corners[0], corners[1], corners[2]);
 }
+constexpr double shape(const QuadrilateralPoints& corners) {
+  return shape(corners[0], corners[1], corners[2], corners[3]);
+}
 
 /// Twice the area, positive where the element is counter-clockwise.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T doubled_area(const TrianglePoints<T>& corners) {
   return cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
+constexpr double doubled_area(const QuadrilateralPoints& corners) {
+  return cross(corners[2] - corners[0], corners[3] - corners[1]);
+}
 
 /// The middle of the corners.
 constexpr Point2<double> centroid(const CornerPoints& corners) {
   const auto& [a, b, c] = corners;
   return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
+}
+constexpr Point2<double> centroid(const QuadrilateralPoints& corners) {
+  const auto& [a, b, c, d] = corners;
+  return {((a.x + b.x) + (c.x + d.x)) / 4, ((a.y + b.y) + (c.y + d.y)) / 4};
 }
 
 /// Whether all corners are held: fixed[v] is not 0.

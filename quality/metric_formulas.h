@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "trismooth/quality/angle.h"
+#include "trismooth/quality/kind_metrics.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/triangle_quality.h"
 
@@ -126,7 +127,9 @@ inline double equiangle_skew(double smallest_angle, double largest_angle) {
   return larger > 0 ? larger : 0.0;
 }
 
-inline MetricValues evaluate_all(Point2<double> a, Point2<double> b, Point2<double> c) {
+/// The values of all metrics of triangles, in the order of all_metrics().
+inline KindValues<CornerPoints> evaluate_all(const CornerPoints& corners) {
+  const auto& [a, b, c] = corners;
   const double signed_shape = shape(a, b, c);
   const SortedEdges edges = sort_edges(a, b, c, signed_shape);
   const double smallest_angle = min_angle(edges);

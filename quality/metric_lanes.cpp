@@ -7,6 +7,7 @@
 
 #include "trismooth/base/machine/compiled_for.h"
 #include "trismooth/quality/metric_formulas.h"
+#include "trismooth/quality/quadrilateral_formulas.h"
 
 // One loop, which calls the formulas as they are for each lane.
 namespace trismooth {
@@ -15,46 +16,68 @@ namespace {
 
 constexpr std::size_t lanes = 32;
 
-/// Triangles side by side, and the values of their metrics.
-struct TriangleLanes {
-  static constexpr std::size_t corner_count = std::tuple_size_v<CornerPoints>;
+KindValues<CornerPoints> all_of(const CornerPoints& corners) {
+  return metric_formulas::evaluate_all(corners);
+}
+KindValues<QuadrilateralPoints> all_of(const QuadrilateralPoints& corners) {
+  return quadrilateral_formulas::evaluate_all(corners);
+}
+
+/// Elements side by side, and the values of their metrics.
+template <class Points>
+struct ElementsInLanes {
+  static constexpr std::size_t corner_count = std::tuple_size_v<Points>;
 
   alignas(64) double corners[2 * corner_count][lanes] = {};  ///< x and y of each
-  alignas(64) double values[metric_count][lanes] = {};
+  alignas(64) double values[count_of_metrics<Points>][lanes] = {};
 };
 
-[[gnu::always_inline]] inline void evaluate_lanes(TriangleLanes& triangles) {
+template <class Points>
+[[gnu::always_inline]] inline void evaluate_lanes(ElementsInLanes<Points>& elements) {
+  constexpr std::size_t corners = ElementsInLanes<Points>::corner_count;
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const auto& at = triangles.corners;
-    const MetricValues values = metric_formulas::evaluate_all({at[0][lane], at[1][lane]}, {at[2][lane], at[3][lane]},
-                                                              {at[4][lane], at[5][lane]});
-    [&]<std::size_t... m>(std::index_sequence<m...>) {
-      ((triangles.values[m][lane] = values[m]), ...);
+    const auto& at = elements.corners;
+    const auto points = [&]<std::size_t... i>(std::index_sequence<i...>) {
+      return Points{Point2<double>{at[2 * i][lane], at[2 * i + 1][lane]}...};
     }
-    (std::make_index_sequence<metric_count>());
+    (std::make_index_sequence<corners>());
+    const KindValues<Points> values = all_of(points);
+    [&]<std::size_t... m>(std::index_sequence<m...>) {
+      ((elements.values[m][lane] = values[m]), ...);
+    }
+    (std::make_index_sequence<count_of_metrics<Points>>());
+  }
+}
+
+template <class Points>
+void evaluate_several(std::span<const Points> elements, std::span<KindValues<Points>> values) {
+  constexpr std::size_t corners = ElementsInLanes<Points>::corner_count;
+  const auto evaluate = compiled_for<evaluate_lanes<Points>>();
+  ElementsInLanes<Points> side_by_side;
+  for (std::size_t begin = 0; begin < elements.size(); begin += lanes) {
+    const std::size_t count = std::min(lanes, elements.size() - begin);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      for (std::size_t corner = 0; corner < corners; ++corner) {
+        side_by_side.corners[2 * corner][lane] = elements[begin + lane][corner].x;
+        side_by_side.corners[2 * corner + 1][lane] = elements[begin + lane][corner].y;
+      }
+    }
+    evaluate(side_by_side);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      for (std::size_t m = 0; m < count_of_metrics<Points>; ++m) {
+        values[begin + lane][m] = side_by_side.values[m][lane];
+      }
+    }
   }
 }
 
 }  // namespace
 
-void evaluate_all(std::span<const CornerPoints> triangles, std::span<MetricValues> values) {
-  const auto evaluate = compiled_for<evaluate_lanes>();
-  TriangleLanes side_by_side;
-  for (std::size_t begin = 0; begin < triangles.size(); begin += lanes) {
-    const std::size_t count = std::min(lanes, triangles.size() - begin);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      for (std::size_t corner = 0; corner < TriangleLanes::corner_count; ++corner) {
-        side_by_side.corners[2 * corner][lane] = triangles[begin + lane][corner].x;
-        side_by_side.corners[2 * corner + 1][lane] = triangles[begin + lane][corner].y;
-      }
-    }
-    evaluate(side_by_side);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      for (std::size_t m = 0; m < metric_count; ++m) {
-        values[begin + lane][m] = side_by_side.values[m][lane];
-      }
-    }
-  }
+void evaluate_all(std::span<const CornerPoints> elements, std::span<KindValues<CornerPoints>> values) {
+  evaluate_several(elements, values);
+}
+void evaluate_all(std::span<const QuadrilateralPoints> elements, std::span<KindValues<QuadrilateralPoints>> values) {
+  evaluate_several(elements, values);
 }
 
 }  // namespace trismooth

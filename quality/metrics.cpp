@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/quality/metric_formulas.h"
 #include "trismooth/quality/metric_lanes.h"
+#include "trismooth/quality/quadrilateral_formulas.h"
 
 namespace trismooth {
 
@@ -15,7 +17,7 @@ namespace {
 using metric_formulas::infinity;
 using metric_formulas::two_over_sqrt3;
 
-constexpr std::array<MetricInfo, metric_count> metric_table{{
+constexpr std::array<MetricInfo, count_of_metrics<CornerPoints>> triangle_metrics{{
     {Metric::shape, "shape", "", true, 0.25, 1, -1, 1,
      "Lee-Lo quality (mean ratio): 1 equilateral, 0 degenerate, negative inverted"},
     {Metric::area, "area", "length^2", true, 0, std::numeric_limits<double>::max(), -infinity, infinity,
@@ -35,32 +37,73 @@ constexpr std::array<MetricInfo, metric_count> metric_table{{
      "largest deviation of an angle from 60 degrees: 0 equilateral, 1 degenerate"},
 }};
 
+constexpr std::array<MetricInfo, count_of_metrics<QuadrilateralPoints>> quadrilateral_metrics{{
+    {Metric::shape, "shape", "", true, 0.3, 1, -1, 1,
+     "worst corner by its sides and angle: 1 square, 0 degenerate, negative not convex"},
+    {Metric::area, "area", "length^2", true, 0, std::numeric_limits<double>::max(), -infinity, infinity,
+     "area, negative where inverted"},
+    {Metric::min_angle, "min_angle", "degrees", true, 45, 90, 0, 90, "smallest interior angle"},
+    {Metric::max_angle, "max_angle", "degrees", false, 90, 135, 90, 360, "largest interior angle"},
+    {Metric::aspect_ratio, "aspect_ratio", "", false, 1, 1.3, 1, infinity,
+     "longest side times perimeter over four areas, 1 for a square"},
+    {Metric::edge_ratio, "edge_ratio", "", false, 1, 1.3, 1, infinity, "longest side over shortest side"},
+    {Metric::condition, "condition", "", false, 1, 4, -infinity, infinity,
+     "largest condition number at a corner, negative where not convex"},
+    {Metric::scaled_jacobian, "scaled_jacobian", "", true, 0.3, 1, -1, 1,
+     "smallest sine of an angle: 1 rectangle, negative not convex"},
+    {Metric::equiangle_skew, "equiangle_skew", "", false, 0, 0.5, 0, 1,
+     "largest deviation of an angle from 90 degrees: 0 rectangle, 1 degenerate or not convex"},
+    {Metric::skew, "skew", "", false, 0, 0.5, 0, 1,
+     "cosine between the lines through middles of opposite sides: 0 rectangle"},
+    {Metric::taper, "taper", "", false, 0, 0.7, 0, infinity, "how unequal opposite sides are: 0 parallelogram"},
+}};
+
+const MetricInfo* find_info(Metric metric, ElementKind kind) {
+  const auto found = std::ranges::find(all_metrics(kind), metric, &MetricInfo::metric);
+  return found == all_metrics(kind).end() ? nullptr : &*found;
+}
+
+/// By Metric, from the values of those that the element has.
+template <class Points>
+MetricValues by_metric(const KindValues<Points>& values) {
+  MetricValues all;
+  all.fill(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t m = 0; m < values.size(); ++m) {
+    all[static_cast<std::size_t>(KindMetrics<Points>::list[m])] = values[m];
+  }
+  return all;
+}
+
 }  // namespace
 
-std::span<const MetricInfo> all_metrics() {
-  return metric_table;
+std::span<const MetricInfo> all_metrics(ElementKind kind) {
+  return kind == ElementKind::triangle ? std::span<const MetricInfo>(triangle_metrics)
+                                       : std::span<const MetricInfo>(quadrilateral_metrics);
 }
 
-const MetricInfo& info(Metric metric) {
-  return metric_table[static_cast<std::size_t>(metric)];
+const MetricInfo& info(Metric metric, ElementKind kind) {
+  const MetricInfo* const found = find_info(metric, kind);
+  if (found == nullptr) {
+    throw std::invalid_argument("metric: elements of that kind have no such metric");
+  }
+  return *found;
 }
 
-std::optional<Metric> metric_named(std::string_view name) {
-  const auto* const found = std::find_if(metric_table.begin(), metric_table.end(),
-                                         [name](const MetricInfo& candidate) { return candidate.name == name; });
-  return found == metric_table.end() ? std::nullopt : std::optional(found->metric);
+std::optional<Metric> metric_named(std::string_view name, ElementKind kind) {
+  const auto found = std::ranges::find(all_metrics(kind), name, &MetricInfo::name);
+  return found == all_metrics(kind).end() ? std::nullopt : std::optional(found->metric);
 }
 
-std::string metric_names() {
-  return list_text(metric_table, &MetricInfo::name);
+std::string metric_names(ElementKind kind) {
+  return list_text(all_metrics(kind), &MetricInfo::name);
 }
 
-bool is_acceptable(Metric metric, double value) {
-  return acceptable_range(metric).holds(value);
+bool is_acceptable(Metric metric, double value, ElementKind kind) {
+  return acceptable_range(metric, kind).holds(value);
 }
 
-AcceptableRange acceptable_range(Metric metric) {
-  const MetricInfo& of = info(metric);
+AcceptableRange acceptable_range(Metric metric, ElementKind kind) {
+  const MetricInfo& of = info(metric, kind);
   return of.larger_is_better ? AcceptableRange{of.acceptable_low, infinity} : AcceptableRange{0, of.acceptable_high};
 }
 
@@ -88,13 +131,24 @@ double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double
     case Metric::scaled_jacobian:
       return scaled_jacobian(edges);
     case Metric::equiangle_skew:
+      return equiangle_skew(min_angle(edges), max_angle(edges));
+    case Metric::skew:
+    case Metric::taper:
       break;
   }
-  return equiangle_skew(min_angle(edges), max_angle(edges));
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 MetricValues evaluate_all(Point2<double> a, Point2<double> b, Point2<double> c) {
-  return metric_formulas::evaluate_all(a, b, c);
+  return by_metric<CornerPoints>(metric_formulas::evaluate_all({a, b, c}));
+}
+
+double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double> c, Point2<double> d) {
+  return evaluate_all(a, b, c, d)[static_cast<std::size_t>(metric)];
+}
+
+MetricValues evaluate_all(Point2<double> a, Point2<double> b, Point2<double> c, Point2<double> d) {
+  return by_metric<QuadrilateralPoints>(quadrilateral_formulas::evaluate_all({a, b, c, d}));
 }
 
 }  // namespace trismooth

@@ -27,59 +27,94 @@ void add(const OrientationVotes& some, OrientationVotes& all) {
   }
 }
 
+/// Calls vote(element, sign) for elements [begin, end) of the view, in order. The sign that counts is that of the
+/// quality in every report and in the guard, where an element is so nearly degenerate that rounding gives it one.
+template <class Vote>
+void for_signs(const TriangleView& view, std::int64_t begin, std::int64_t end, const Vote& vote) {
+  for_corners(view, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
+              [&](std::size_t first, std::span<const CornerPoints> corners) {
+                for (std::size_t i = 0; i < corners.size(); ++i) {
+                  vote(static_cast<std::int64_t>(first + i), shape_quotient(corners[i]));
+                }
+              });
+}
+template <class Vote>
+void for_signs(const ElementView<MixedElement>& view, std::int64_t begin, std::int64_t end, const Vote& vote) {
+  for (std::int64_t e = begin; e < end; ++e) {
+    const MixedElement corners = canonical_corners(view, static_cast<std::size_t>(e));
+    const bool is_triangle = corner_count(corners) == 3;
+    vote(e, is_triangle ? shape_quotient(points_of(Triangle{corners[0], corners[1], corners[2]}, view.points))
+                        : doubled_area(points_of(corners, view.points)));
+  }
+}
+
+template <class Corners>
+std::vector<OrientationVotes> votes_of(const TriangleComponents& components, std::span<const Corners> elements,
+                                       std::span<const Point2<double>> points, std::span<const std::uint8_t> left_out,
+                                       Workers& workers) {
+  std::vector<OrientationVotes> votes(static_cast<std::size_t>(components.components));
+  const ElementView<Corners> listed{points, elements, components.parity};
+  workers.for_blocks(std::ssize(elements), orientation_grain, [&](std::int64_t begin, std::int64_t end) {
+    OrientationVotes some;  // of elements that follow each other in one component
+    for_signs(listed, begin, end, [&](std::int64_t e, double sign) {
+      if (left_out.empty() || left_out[e] == 0) {
+        some.positive += sign > 0 ? 1 : 0;
+        some.negative += sign < 0 ? 1 : 0;
+        if (some.first == OrientationVotes::nobody && sign != 0) {
+          some.first = 2 * e + (sign > 0 ? 0 : 1);
+        }
+        ++some.triangles;
+        some.against += components.parity[e];
+      }
+      if (e + 1 == end || components.component[e + 1] != components.component[e]) {
+        add(some, votes[components.component[e]]);
+        some = {};
+      }
+    });
+  });
+  return votes;
+}
+
+template <class Corners>
+Orientation oriented(const TriangleComponents& components, std::span<const Corners> elements,
+                     std::span<const Point2<double>> points, Workers& workers) {
+  const std::vector<OrientationVotes> votes = orientation_votes(components, elements, points, {}, workers);
+  Orientation orientation;
+  for (const OrientationVotes& all : votes) {
+    orientation.reoriented_triangles += all.reoriented_triangles();
+  }
+  orientation.reversed.resize(elements.size());
+  workers.for_blocks(std::ssize(elements), orientation_grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      const bool flip = votes[components.component[e]].flip();
+      orientation.reversed[e] = static_cast<std::uint8_t>(components.parity[e] ^ (flip ? 1U : 0U));
+    }
+  });
+  return orientation;
+}
+
 }  // namespace
 
 std::vector<OrientationVotes> orientation_votes(const TriangleComponents& components,
                                                 std::span<const Triangle> triangles,
                                                 std::span<const Point2<double>> points,
                                                 std::span<const std::uint8_t> left_out, Workers& workers) {
-  std::vector<OrientationVotes> votes(static_cast<std::size_t>(components.components));
-  const TriangleView listed{points, triangles, components.parity};
-  workers.for_blocks(std::ssize(triangles), orientation_grain, [&](std::int64_t begin, std::int64_t end) {
-    OrientationVotes some;  // of triangles that follow each other in one component
-    const auto vote = [&](std::int64_t t, const CornerPoints& corners) {
-      if (left_out.empty() || left_out[t] == 0) {
-        // Where a triangle is nearly degenerate, rounding gives it a sign that differs with the corner that comes
-        // first: the sign that counts is that of its quality in every report and in the guard.
-        const double quotient = shape_quotient(corners);
-        some.positive += quotient > 0 ? 1 : 0;
-        some.negative += quotient < 0 ? 1 : 0;
-        if (some.first == OrientationVotes::nobody && quotient != 0) {
-          some.first = 2 * t + (quotient > 0 ? 0 : 1);
-        }
-        ++some.triangles;
-        some.against += components.parity[t];
-      }
-      if (t + 1 == end || components.component[t + 1] != components.component[t]) {
-        add(some, votes[components.component[t]]);
-        some = {};
-      }
-    };
-    for_corners(listed, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
-                [&](std::size_t first, std::span<const CornerPoints> corners) {
-                  for (std::size_t i = 0; i < corners.size(); ++i) {
-                    vote(static_cast<std::int64_t>(first + i), corners[i]);
-                  }
-                });
-  });
-  return votes;
+  return votes_of(components, triangles, points, left_out, workers);
+}
+std::vector<OrientationVotes> orientation_votes(const TriangleComponents& components,
+                                                std::span<const MixedElement> elements,
+                                                std::span<const Point2<double>> points,
+                                                std::span<const std::uint8_t> left_out, Workers& workers) {
+  return votes_of(components, elements, points, left_out, workers);
 }
 
 Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
                    std::span<const Point2<double>> points, Workers& workers) {
-  const std::vector<OrientationVotes> votes = orientation_votes(components, triangles, points, {}, workers);
-  Orientation orientation;
-  for (const OrientationVotes& all : votes) {
-    orientation.reoriented_triangles += all.reoriented_triangles();
-  }
-  orientation.reversed.resize(triangles.size());
-  workers.for_blocks(std::ssize(triangles), orientation_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      const bool flip = votes[components.component[t]].flip();
-      orientation.reversed[t] = static_cast<std::uint8_t>(components.parity[t] ^ (flip ? 1U : 0U));
-    }
-  });
-  return orientation;
+  return oriented(components, triangles, points, workers);
+}
+Orientation orient(const TriangleComponents& components, std::span<const MixedElement> elements,
+                   std::span<const Point2<double>> points, Workers& workers) {
+  return oriented(components, elements, points, workers);
 }
 
 Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,

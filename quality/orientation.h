@@ -44,10 +44,17 @@ std::vector<OrientationVotes> orientation_votes(const TriangleComponents& compon
                                                 std::span<const Triangle> triangles,
                                                 std::span<const Point2<double>> points,
                                                 std::span<const std::uint8_t> left_out, Workers& workers);
+/// The votes of every component where quadrilaterals are among the elements: of one its area has the sign.
+std::vector<OrientationVotes> orientation_votes(const TriangleComponents& components,
+                                                std::span<const MixedElement> elements,
+                                                std::span<const Point2<double>> points,
+                                                std::span<const std::uint8_t> left_out, Workers& workers);
 
 /// Each component is oriented so that the majority of its triangles is positive; a tie makes its lowest-numbered
 /// non-degenerate triangle positive. `points` are in the local frame, so that no product overflows. Complexity: linear.
 Orientation orient(const TriangleComponents& components, std::span<const Triangle> triangles,
+                   std::span<const Point2<double>> points, Workers& workers);
+Orientation orient(const TriangleComponents& components, std::span<const MixedElement> elements,
                    std::span<const Point2<double>> points, Workers& workers);
 
 /// orient() on the calling thread.

@@ -22,7 +22,7 @@ PrecisionLoss single_precision_loss(const TriangleView& view, int threads) {
   constexpr std::int64_t grain = 4096;
   Workers workers(threads);
   return joined_blocks(
-      std::ssize(view.triangles), grain, workers, PrecisionLoss{std::ssize(view.triangles)},
+      std::ssize(view.elements), grain, workers, PrecisionLoss{std::ssize(view.elements)},
       [&](std::int64_t begin, std::int64_t end, PrecisionLoss& loss) {
         for (std::int64_t t = begin; t < end; ++t) {
           const Triangle corners = canonical_corners(view, static_cast<std::size_t>(t));

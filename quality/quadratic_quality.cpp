@@ -20,7 +20,7 @@ QuadraticQuality quadratic_quality(const TriangleView& view, std::span<const Qua
           const auto t = static_cast<std::size_t>(element.triangle);
           const bool is_reversed = !view.reversed.empty() && view.reversed[t] != 0;
           const JacobianBound bound =
-              jacobian_bound(quadratic_nodes(view.triangles[t], element.middles, is_reversed, view.points));
+              jacobian_bound(quadratic_nodes(view.elements[t], element.middles, is_reversed, view.points));
           found.invalid += bound.is_invalid() ? 1 : 0;
           found.undecided += bound.is_valid() || bound.is_invalid() ? 0 : 1;
           found.min_jacobian = std::min(found.min_jacobian, bound.scaled());

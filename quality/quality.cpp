@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/heights.h"
@@ -19,38 +21,49 @@
 #include "trismooth/quality/corner_points.h"
 #include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/orientation.h"
+#include "trismooth/quality/quality_part.h"
 
 namespace trismooth {
 
 namespace {
 
-void require_places(const ElementValues& values, std::size_t triangles) {
-  for (std::size_t m = 0; m < values.size(); ++m) {
-    if (!values[m].empty() && values[m].size() != triangles) {
-      throw std::invalid_argument(std::string("the values of ") + std::string(info(static_cast<Metric>(m)).name) +
-                                  ": " + std::to_string(values[m].size()) + " places for " + std::to_string(triangles) +
-                                  " triangles");
+void require_places(const ElementValues& values, std::size_t elements) {
+  for (const ElementKind kind : {ElementKind::triangle, ElementKind::quadrilateral}) {
+    for (const MetricInfo& metric : all_metrics(kind)) {
+      const std::span<double> of_metric = values[static_cast<std::size_t>(metric.metric)];
+      if (!of_metric.empty() && of_metric.size() != elements) {
+        throw std::invalid_argument("the values of " + std::string(metric.name) + ": " +
+                                    std::to_string(of_metric.size()) + " places for " + std::to_string(elements) +
+                                    " elements");
+      }
     }
   }
 }
 
-void find_values(const TriangleView& view, const ElementValues& values, Workers& workers) {
-  if (std::ranges::all_of(values, [](const auto& of_metric) { return of_metric.empty(); })) {
-    return;
-  }
+bool is_wanted(const ElementValues& values) {
+  return !std::ranges::all_of(values, [](const auto& of_metric) { return of_metric.empty(); });
+}
+
+/// Writes the values that are asked for of the view's elements. number(i): where that of its element i goes.
+template <class Corners, class NumberOf>
+void find_values(const ElementView<Corners>& view, const ElementValues& values, const NumberOf& number,
+                 Workers& workers) {
+  using Points = decltype(corner_points(view, 0));
   constexpr std::int64_t grain = 4096;
-  workers.for_blocks(std::ssize(view.triangles), grain, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<MetricValues> found;
-    const auto keep = [&](std::size_t first, std::span<const CornerPoints> corners) {
+  workers.for_blocks(std::ssize(view.elements), grain, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<KindValues<Points>> found;
+    const auto keep = [&](std::size_t first, std::span<const Points> corners) {
       found.resize(corners.size());
       evaluate_all(corners, found);
-      for (std::size_t m = 0; m < values.size(); ++m) {
-        if (values[m].empty()) {
+      for (std::size_t m = 0; m < count_of_metrics<Points>; ++m) {
+        const Metric metric = KindMetrics<Points>::list[m];
+        const std::span<double> of_metric = values[static_cast<std::size_t>(metric)];
+        if (of_metric.empty()) {
           continue;
         }
-        const int exponent = static_cast<Metric>(m) == Metric::area ? 2 * view.exponent : 0;
+        const int exponent = metric == Metric::area ? 2 * view.exponent : 0;
         for (std::size_t i = 0; i < found.size(); ++i) {
-          values[m][first + i] = std::ldexp(found[i][m], exponent);
+          of_metric[number(first + i)] = std::ldexp(found[i][m], exponent);
         }
       }
     };
@@ -58,23 +71,101 @@ void find_values(const TriangleView& view, const ElementValues& values, Workers&
   });
 }
 
-/// The quality of triangles that have been connected.
-QualityReport report_of(std::span<const Triangle> triangles, const TriangleTopology& topology,
-                        const ConstPointView& points, const ElementValues& values, const QualityOptions& options,
-                        Workers& workers) {
+/// Those of metrics that not all elements have: whoever has them writes over it.
+void fill_with_none(const ElementValues& values) {
+  for (const Metric metric : {Metric::radius_ratio, Metric::skew, Metric::taper}) {
+    std::ranges::fill(values[static_cast<std::size_t>(metric)], std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+/// The points of elements that have been connected, in their local frame.
+template <class Topology>
+LocalPoints local_points(const ConstPointView& points, const Topology& topology, Workers& workers) {
   const std::vector<Point2<double>> stored = points.read(workers);
   if (points.components() == 3) {
     require_one_height(points, stored, [&] { return topology.hold; });
   }
-  const LocalPoints local = entered(local_frame_of_cells(stored, topology.hold), stored);
-  const Orientation orientation = orient(topology, triangles, local.points, workers);
-  const TriangleView view{local.points, triangles, orientation.reversed, local.frame.exponent};
-  find_values(view, values, workers);
-  QualityReport report = quality_report(view, options);
+  return entered(local_frame_of_cells(stored, topology.hold), stored);
+}
+
+QualityReport in_units_of_caller(QualityReport report, const LocalFrame& frame) {
   for (WorstElement& element : report.worst) {
-    element.centroid = local.frame.leave(element.centroid);
+    element.centroid = frame.leave(element.centroid);
   }
   return report;
+}
+
+/// The quality of triangles that have been connected.
+QualityReport report_of(std::span<const Triangle> triangles, const TriangleTopology& topology,
+                        const ConstPointView& points, const ElementValues& values, const QualityOptions& options,
+                        Workers& workers) {
+  const LocalPoints local = local_points(points, topology, workers);
+  const Orientation orientation = orient(topology, triangles, local.points, workers);
+  const TriangleView view{local.points, triangles, orientation.reversed, local.frame.exponent};
+  if (is_wanted(values)) {
+    fill_with_none(values);
+    find_values(
+        view, values, [](std::size_t t) { return t; }, workers);
+  }
+  return in_units_of_caller(quality_report(view, options), local.frame);
+}
+
+/// The elements of one kind, and their numbers among all.
+template <class Corners>
+struct OfKind {
+  std::vector<Corners> elements;
+  std::vector<std::uint8_t> reversed;
+  std::vector<std::size_t> numbers;
+
+  void add(const Corners& corners, std::uint8_t is_reversed, std::size_t number) {
+    elements.push_back(corners);
+    reversed.push_back(is_reversed);
+    numbers.push_back(number);
+  }
+  ElementView<Corners> view(const LocalPoints& local) const {
+    return {local.points, elements, reversed, local.frame.exponent};
+  }
+  /// The parts of a report of them, with their numbers among all.
+  auto parts(const LocalPoints& local, const QualityOptions& options) const {
+    auto made = quality_parts(view(local), options);
+    for (WorstElement& element : made.worst) {
+      element.element = static_cast<std::int64_t>(numbers[static_cast<std::size_t>(element.element)]);
+    }
+    return made;
+  }
+};
+
+/// The quality of elements with quadrilaterals among them.
+QualityReport report_of_both(std::span<const MixedElement> elements, const ConstPointView& points,
+                             const ElementValues& values, const QualityOptions& options, Workers& workers) {
+  const TriangleTopology topology = connect_triangles(static_cast<std::int32_t>(points.size()), elements, workers);
+  const LocalPoints local = local_points(points, topology, workers);
+  const Orientation orientation = orient(topology, elements, local.points, workers);
+  OfKind<Triangle> triangles;
+  OfKind<MixedElement> quadrilaterals;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto& [a, b, c, d] = elements[e];
+    if (d == no_corner) {
+      triangles.add({a, b, c}, orientation.reversed[e], e);
+    } else {
+      quadrilaterals.add(elements[e], orientation.reversed[e], e);
+    }
+  }
+  if (is_wanted(values)) {
+    fill_with_none(values);
+    find_values(
+        triangles.view(local), values, [&](std::size_t t) { return triangles.numbers[t]; }, workers);
+    find_values(
+        quadrilaterals.view(local), values, [&](std::size_t q) { return quadrilaterals.numbers[q]; }, workers);
+  }
+  const QualityParts of_triangles = triangles.parts(local, options);
+  const KindParts<QuadrilateralPoints> of_quadrilaterals = quadrilaterals.parts(local, options);
+  std::vector<WorstElement> worst = of_triangles.worst;
+  worst.insert(worst.end(), of_quadrilaterals.worst.begin(), of_quadrilaterals.worst.end());
+  std::ranges::sort(worst, is_worse);
+  worst.resize(std::min(worst.size(), static_cast<std::size_t>(std::max(options.worst_count, 0))));
+  return in_units_of_caller(
+      report_of(of_triangles.total(), of_quadrilaterals.total(), std::move(worst), local.frame.exponent), local.frame);
 }
 
 }  // namespace
@@ -87,8 +178,13 @@ QualityReport quality(const ConstPointView& points, const IndexView& triangles, 
                       const QualityOptions& options) {
   require_places(values, triangles.size());
   Workers workers(options.threads);
-  check_mesh_size(static_cast<std::int64_t>(points.size()), static_cast<std::int64_t>(triangles.size()));
+  check_mesh_size(static_cast<std::int64_t>(points.size()), static_cast<std::int64_t>(triangles.size()),
+                  triangles.may_have_quadrilaterals() ? 4 : 3);
   const auto vertex_count = static_cast<std::int32_t>(points.size());
+  if (triangles.may_have_quadrilaterals()) {
+    std::vector<MixedElement> converted;
+    return report_of_both(triangles.elements(vertex_count, converted), points, values, options, workers);
+  }
   std::vector<Triangle> converted;
   const std::span<const Triangle> listed = triangles.triangles(vertex_count, converted);
   return report_of(listed, connect_triangles(vertex_count, listed, workers), points, values, options, workers);

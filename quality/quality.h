@@ -23,6 +23,10 @@ namespace trismooth {
 /// are in the caller's units. A third number of a point is its height, and must be the same for all vertices that
 /// triangles use, to within 1e-6 of their extent.
 ///
+/// Where `triangles` has four numbers of each, quadrilaterals are among them (see IndexView): they are oriented
+/// together with the triangles that they share edges with, a quadrilateral is positive where its area is, and inverted
+/// where it is not strictly convex then. The report is of all elements, and QualityReport::kinds of each kind.
+///
 /// Throws MeshError for triangles that are no mesh (an index out of range, a triangle that repeats a vertex, a
 /// component that cannot be oriented), for a coordinate that is not finite and for heights that differ;
 /// std::invalid_argument for a number of threads out of range. Complexity: linear, but for sorting the edges of each
@@ -30,18 +34,18 @@ namespace trismooth {
 [[nodiscard]] QualityReport quality(const ConstPointView& points, const IndexView& triangles,
                                     const QualityOptions& options = {});
 
-/// Where the caller wants the values of a metric: for every triangle one, in the order of the triangles; or nothing.
-/// Indexed by Metric.
+/// Where the caller wants the values of a metric: for every element one, in the order of the elements; or nothing.
+/// Indexed by Metric. NaN of elements whose kind has none of it.
 using ElementValues = std::array<std::span<double>, metric_count>;
 
-/// The report, and the value of each metric asked for of every triangle: what the report sums up. Areas are in the
-/// caller's units; values may be infinite (see evaluate()), never NaN. The caller owns `values`; throws
-/// std::invalid_argument unless each is empty or has one place a triangle.
+/// The report, and the value of each metric asked for of every element: what the report sums up. Areas are in the
+/// caller's units; values may be infinite (see evaluate()), NaN only where the kind of element has none of the metric.
+/// The caller owns `values`; throws std::invalid_argument unless each is empty or has one place an element.
 QualityReport quality(const ConstPointView& points, const IndexView& triangles, const ElementValues& values,
                       const QualityOptions& options = {});
 
-/// A mesh whose triangles are analysed once, and whose quality is asked for as often as its points change. Owns a copy
-/// of the triangles. Several threads may ask at the same time.
+/// A mesh whose triangles, three numbers each, are analysed once, and whose quality is asked for as often as its points
+/// change. Owns a copy of the triangles. Several threads may ask at the same time.
 class MeshQuality {
  public:
   /// Throws as quality() does for triangles, and for `threads` (0: all).

@@ -16,17 +16,18 @@ namespace trismooth {
 
 namespace {
 
-/// Triangles are taken in blocks of this size whatever the number of threads, and the blocks' results are combined in
+/// Elements are taken in blocks of this size whatever the number of threads, and the blocks' results are combined in
 /// order: no rounding depends on scheduling. A block's values stay in the second-level cache.
 constexpr std::size_t block_size = triangles_a_quality_part;
 
-std::size_t block_count(const TriangleView& view) {
-  return (view.triangles.size() + block_size - 1) / block_size;
+template <class Corners>
+std::size_t block_count(const ElementView<Corners>& view) {
+  return (view.elements.size() + block_size - 1) / block_size;
 }
 
 /// Calls `function(block)` for every block of the view.
-template <class Function>
-void for_each_block(const TriangleView& view, int threads, const Function& function) {
+template <class Corners, class Function>
+void for_each_block(const ElementView<Corners>& view, int threads, const Function& function) {
   Workers(threads).for_blocks(static_cast<std::int64_t>(block_count(view)), 1,
                               [&](std::int64_t begin, std::int64_t end) {
                                 for (std::int64_t block = begin; block < end; ++block) {
@@ -69,15 +70,15 @@ class WorstList {
   std::vector<WorstElement> elements_;
 };
 
-constexpr MetricValues zeros{};
-
 /// What one block contributes.
+template <class Points>
 struct Block {
-  QualityPart part;
+  KindPart<Points> part;
   std::vector<WorstElement> worst;
 };
 
-void count_shape(QualityPart& partial, double shape) {
+template <class Points>
+void count_shape(KindPart<Points>& partial, double shape) {
   if (shape < 0) {
     ++partial.inverted;
     return;
@@ -88,33 +89,36 @@ void count_shape(QualityPart& partial, double shape) {
   ++partial.shape_histogram[std::min(bin, shape_bins - 1)];
 }
 
-/// What the report says of each metric, of all of these triangles.
-void count_metrics(QualityPart& partial, std::span<const MetricValues> values) {
-  std::array<AcceptableRange, metric_count> acceptable;
-  for (std::size_t m = 0; m < metric_count; ++m) {
-    acceptable[m] = acceptable_range(static_cast<Metric>(m));
+/// What the report says of each metric, of all of these elements.
+template <class Points>
+void count_metrics(KindPart<Points>& partial, std::span<const KindValues<Points>> values) {
+  using Kind = KindMetrics<Points>;
+  constexpr std::size_t metrics = count_of_metrics<Points>;
+  std::array<AcceptableRange, metrics> acceptable;
+  for (std::size_t m = 0; m < metrics; ++m) {
+    acceptable[m] = acceptable_range(Kind::list[m], Kind::kind);
   }
   // In variables of their own, which stay in registers.
-  MetricValues sum = partial.sum;
-  MetricValues min = partial.min;
-  MetricValues max = partial.max;
-  std::array<std::int64_t, metric_count> accepted{};
-  for (const MetricValues& of_triangle : values) {
-    for (std::size_t m = 0; m < metric_count; ++m) {
-      sum[m] += of_triangle[m];
-      min[m] = std::min(min[m], of_triangle[m]);
-      max[m] = std::max(max[m], of_triangle[m]);
-      accepted[m] += acceptable[m].holds(of_triangle[m]) ? 1 : 0;
+  KindValues<Points> sum = partial.sum;
+  KindValues<Points> min = partial.min;
+  KindValues<Points> max = partial.max;
+  std::array<std::int64_t, metrics> accepted{};
+  for (const KindValues<Points>& of_element : values) {
+    for (std::size_t m = 0; m < metrics; ++m) {
+      sum[m] += of_element[m];
+      min[m] = std::min(min[m], of_element[m]);
+      max[m] = std::max(max[m], of_element[m]);
+      accepted[m] += acceptable[m].holds(of_element[m]) ? 1 : 0;
     }
   }
-  MetricValues mean = sum;
+  KindValues<Points> mean = sum;
   for (double& value : mean) {
     value /= static_cast<double>(values.size());
   }
-  MetricValues squared_deviations = zeros;
-  for (const MetricValues& of_triangle : values) {
-    for (std::size_t m = 0; m < metric_count; ++m) {
-      const double deviation = of_triangle[m] - mean[m];
+  KindValues<Points> squared_deviations{};
+  for (const KindValues<Points>& of_element : values) {
+    for (std::size_t m = 0; m < metrics; ++m) {
+      const double deviation = of_element[m] - mean[m];
       squared_deviations[m] += deviation * deviation;
     }
   }
@@ -126,71 +130,37 @@ void count_metrics(QualityPart& partial, std::span<const MetricValues> values) {
   partial.squared_deviations = squared_deviations;
 }
 
-Block evaluate_block(const TriangleView& view, std::size_t block, std::size_t worst_count) {
+template <class Points, class Corners>
+Block<Points> evaluate_block(const ElementView<Corners>& view, std::size_t block, std::size_t worst_count) {
   const std::size_t begin = block * block_size;
-  const std::size_t count = std::min(block_size, view.triangles.size() - begin);
-  std::array<MetricValues, block_size> values;
-  for_corners(view, begin, begin + count, [&](std::size_t first, std::span<const CornerPoints> corners) {
+  const std::size_t count = std::min(block_size, view.elements.size() - begin);
+  std::array<KindValues<Points>, block_size> values;
+  for_corners(view, begin, begin + count, [&](std::size_t first, std::span<const Points> corners) {
     evaluate_all(corners, std::span(values).subspan(first - begin, corners.size()));
   });
-  Block evaluated;
-  count_metrics(evaluated.part, std::span(values).first(count));
+  Block<Points> evaluated;
+  count_metrics<Points>(evaluated.part, std::span(values).first(count));
   WorstList worst(std::min(worst_count, count));
-  for (std::size_t t = 0; t < count; ++t) {
-    const double shape = values[t][static_cast<std::size_t>(Metric::shape)];
+  for (std::size_t e = 0; e < count; ++e) {
+    const double shape = values[e][shape_place];
     count_shape(evaluated.part, shape);
     if (worst.would_take(shape)) {
-      worst.offer({static_cast<std::int64_t>(begin + t), shape, centroid(corner_points(view, begin + t))});
+      worst.offer({static_cast<std::int64_t>(begin + e), shape, centroid(corner_points(view, begin + e))});
     }
   }
   evaluated.worst = worst.take_sorted();
   return evaluated;
 }
 
-MetricSummary summary(const QualityPart& total, std::size_t m) {
-  if (total.count == 0) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    return {nan, nan, nan, nan, nan};
-  }
-  return {total.min[m], total.sum[m] / total.count, total.max[m], std::sqrt(total.squared_deviations[m] / total.count),
-          static_cast<double>(total.acceptable[m]) / total.count};
-}
-
-}  // namespace
-
-bool is_worse(const WorstElement& a, const WorstElement& b) {
-  return a.shape < b.shape || (a.shape == b.shape && a.triangle < b.triangle);
-}
-
-// Sums of squared deviations are merged as by T. F. Chan, G. H. Golub and R. J. LeVeque (1979).
-void QualityPart::append(const QualityPart& next) {
-  for (std::size_t m = 0; m < metric_count; ++m) {
-    if (count > 0) {
-      const double between = next.sum[m] / next.count - sum[m] / count;
-      squared_deviations[m] += between * between * (count * next.count / (count + next.count));
-    }
-    squared_deviations[m] += next.squared_deviations[m];
-    sum[m] += next.sum[m];
-    min[m] = std::min(min[m], next.min[m]);
-    max[m] = std::max(max[m], next.max[m]);
-    acceptable[m] += next.acceptable[m];
-  }
-  for (std::size_t bin = 0; bin < shape_bins; ++bin) {
-    shape_histogram[bin] += next.shape_histogram[bin];
-  }
-  count += next.count;
-  inverted += next.inverted;
-  degenerate += next.degenerate;
-}
-
-QualityParts quality_parts(const TriangleView& view, const QualityOptions& options) {
+template <class Points, class Corners>
+KindParts<Points> parts_of(const ElementView<Corners>& view, const QualityOptions& options) {
   const auto worst_count = static_cast<std::size_t>(std::max(options.worst_count, 0));
-  std::vector<Block> blocks(block_count(view));
+  std::vector<Block<Points>> blocks(block_count(view));
   for_each_block(view, options.threads,
-                 [&](std::size_t block) { blocks[block] = evaluate_block(view, block, worst_count); });
-  QualityParts made;
-  WorstList worst(std::min(worst_count, view.triangles.size()));
-  for (const Block& block : blocks) {
+                 [&](std::size_t block) { blocks[block] = evaluate_block<Points>(view, block, worst_count); });
+  KindParts<Points> made;
+  WorstList worst(std::min(worst_count, view.elements.size()));
+  for (const Block<Points>& block : blocks) {
     made.parts.push_back(block.part);
     for (const WorstElement& element : block.worst) {
       worst.offer(element);
@@ -200,40 +170,161 @@ QualityParts quality_parts(const TriangleView& view, const QualityOptions& optio
   return made;
 }
 
-QualityReport report_of(const QualityPart& total, std::vector<WorstElement> worst, int exponent) {
-  QualityReport report;
-  report.triangles = static_cast<std::int64_t>(total.count);
-  report.inverted = total.inverted;
-  report.degenerate = total.degenerate;
-  report.shape_histogram = total.shape_histogram;
-  report.worst = std::move(worst);
-  for (std::size_t m = 0; m < metric_count; ++m) {
-    report.metrics[m] = summary(total, m);
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Of what a metric's summary is made.
+struct MetricPart {
+  double count = 0;
+  double sum = 0;
+  double squared_deviations = 0;
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+  std::int64_t acceptable = 0;
+
+  // Sums of squared deviations are merged as by T. F. Chan, G. H. Golub and R. J. LeVeque (1979).
+  void append(const MetricPart& next) {
+    if (count > 0 && next.count > 0) {
+      const double between = next.sum / next.count - sum / count;
+      squared_deviations += between * between * (count * next.count / (count + next.count));
+    }
+    squared_deviations += next.squared_deviations;
+    sum += next.sum;
+    min = std::min(min, next.min);
+    max = std::max(max, next.max);
+    acceptable += next.acceptable;
+    count += next.count;
   }
-  MetricSummary& area = report[Metric::area];
+
+  MetricSummary summary() const {
+    if (count == 0) {
+      return {nan, nan, nan, nan, nan};
+    }
+    return {min, sum / count, max, std::sqrt(squared_deviations / count), static_cast<double>(acceptable) / count};
+  }
+};
+
+/// By Metric.
+using MetricParts = std::array<MetricPart, metric_count>;
+
+template <class Points>
+MetricPart metric_part(const KindPart<Points>& part, std::size_t m) {
+  return {part.count, part.sum[m], part.squared_deviations[m], part.min[m], part.max[m], part.acceptable[m]};
+}
+
+/// What the elements of a kind contribute to the summaries of all.
+template <class Points>
+void append(const KindPart<Points>& part, MetricParts& all) {
+  for (std::size_t m = 0; m < count_of_metrics<Points>; ++m) {
+    all[static_cast<std::size_t>(KindMetrics<Points>::list[m])].append(metric_part(part, m));
+  }
+}
+
+std::array<MetricSummary, metric_count> summaries(const MetricParts& parts, int exponent) {
+  std::array<MetricSummary, metric_count> found;
+  std::ranges::transform(parts, found.begin(), &MetricPart::summary);
+  MetricSummary& area = found[static_cast<std::size_t>(Metric::area)];
   for (double* const value : {&area.min, &area.mean, &area.max, &area.stddev}) {
     *value = std::ldexp(*value, 2 * exponent);
   }
+  return found;
+}
+
+/// Adds the elements of a kind to a report, but for their metrics.
+template <class Points>
+void count_in(const KindPart<Points>& part, QualityReport& report) {
+  report.inverted += part.inverted;
+  report.degenerate += part.degenerate;
+  for (std::size_t bin = 0; bin < shape_bins; ++bin) {
+    report.shape_histogram[bin] += part.shape_histogram[bin];
+  }
+}
+
+template <class Points>
+void add_kind(const KindPart<Points>& part, int exponent, QualityReport& report) {
+  if (part.count > 0) {
+    MetricParts alone;
+    append(part, alone);
+    report.kinds.push_back({KindMetrics<Points>::kind, static_cast<std::int64_t>(part.count), part.inverted,
+                            part.degenerate, summaries(alone, exponent)});
+  }
+}
+
+}  // namespace
+
+bool is_worse(const WorstElement& a, const WorstElement& b) {
+  return a.shape < b.shape || (a.shape == b.shape && a.element < b.element);
+}
+
+template <class Points>
+void KindPart<Points>::append(const KindPart& next) {
+  for (std::size_t m = 0; m < metrics; ++m) {
+    MetricPart joined = metric_part(*this, m);
+    joined.append(metric_part(next, m));
+    sum[m] = joined.sum;
+    squared_deviations[m] = joined.squared_deviations;
+    min[m] = joined.min;
+    max[m] = joined.max;
+    acceptable[m] = joined.acceptable;
+  }
+  for (std::size_t bin = 0; bin < shape_bins; ++bin) {
+    shape_histogram[bin] += next.shape_histogram[bin];
+  }
+  count += next.count;
+  inverted += next.inverted;
+  degenerate += next.degenerate;
+}
+
+template struct KindPart<CornerPoints>;
+template struct KindPart<QuadrilateralPoints>;
+
+QualityParts quality_parts(const TriangleView& view, const QualityOptions& options) {
+  return parts_of<CornerPoints>(view, options);
+}
+KindParts<QuadrilateralPoints> quality_parts(const QuadrilateralView& view, const QualityOptions& options) {
+  return parts_of<QuadrilateralPoints>(view, options);
+}
+
+QualityReport report_of(const QualityPart& total, std::vector<WorstElement> worst, int exponent) {
+  QualityReport report;
+  report.triangles = static_cast<std::int64_t>(total.count);
+  count_in(total, report);
+  MetricParts all;
+  append(total, all);
+  report.metrics = summaries(all, exponent);
+  report.worst = std::move(worst);
+  return report;
+}
+
+QualityReport report_of(const QualityPart& triangles, const KindPart<QuadrilateralPoints>& quadrilaterals,
+                        std::vector<WorstElement> worst, int exponent) {
+  QualityReport report;
+  report.triangles = static_cast<std::int64_t>(triangles.count);
+  report.quadrilaterals = static_cast<std::int64_t>(quadrilaterals.count);
+  count_in(triangles, report);
+  count_in(quadrilaterals, report);
+  MetricParts all;
+  append(triangles, all);
+  append(quadrilaterals, all);
+  report.metrics = summaries(all, exponent);
+  add_kind(triangles, exponent, report);
+  add_kind(quadrilaterals, exponent, report);
+  report.worst = std::move(worst);
   return report;
 }
 
 QualityReport quality_report(const TriangleView& view, const QualityOptions& options) {
   QualityParts made = quality_parts(view, options);
-  QualityPart total;
-  for (const QualityPart& part : made.parts) {
-    total.append(part);
-  }
-  return report_of(total, std::move(made.worst), view.exponent);
+  return report_of(made.total(), std::move(made.worst), view.exponent);
 }
 
 double smallest_shape(const TriangleView& view, int threads) {
-  if (view.triangles.empty()) {
+  if (view.elements.empty()) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   std::vector<double> smallest(block_count(view));
   for_each_block(view, threads, [&](std::size_t block) {
     const std::size_t begin = block * block_size;
-    const std::size_t end = std::min(begin + block_size, view.triangles.size());
+    const std::size_t end = std::min(begin + block_size, view.elements.size());
     double smallest_of_block = std::numeric_limits<double>::infinity();
     for_corners(view, begin, end, [&](std::size_t /*first*/, std::span<const CornerPoints> corners) {
       for (const CornerPoints& of_element : corners) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <ostream>
 #include <string_view>
 #include <utility>
@@ -34,18 +35,38 @@ std::string acceptable_text(const MetricInfo& metric) {
                                  : "<= " + shortest_digits(metric.acceptable_high);
 }
 
-std::string metrics_text(const QualityReport& report) {
+/// A row for each of the metrics, of which summary(metric) is what it comes to.
+template <class Metrics, class Summary>
+std::string rows_of_metrics(const Metrics& metrics, bool has_one_range, const Summary& summary_of_metric) {
   TextColumns columns({{0, Align::left}, {2}, {2}, {2}, {2}, {2}, {2, Align::left}});
-  columns.add_row({"metric", "min", "mean", "max", "stddev", "acceptable", "where"});
-  for (const MetricInfo* const shown : metrics_of(report)) {
-    const MetricInfo& metric = *shown;
-    const MetricSummary& summary = summary_of(report, metric);
+  columns.add_row({"metric", "min", "mean", "max", "stddev", "acceptable", has_one_range ? "where" : ""});
+  for (const MetricInfo& metric : metrics) {
+    const MetricSummary& summary = summary_of_metric(metric);
     const int digits = decimals(metric.metric);
     columns.add_row({std::string(metric.name), cell_text(summary.min, digits), cell_text(summary.mean, digits),
                      cell_text(summary.max, digits), cell_text(summary.stddev, digits),
-                     percent_text(summary.acceptable_fraction) + " %", acceptable_text(metric)});
+                     percent_text(summary.acceptable_fraction) + " %", has_one_range ? acceptable_text(metric) : ""});
   }
   return columns.text();
+}
+
+std::string metrics_text(const QualityReport& report) {
+  std::vector<MetricInfo> shown;
+  std::ranges::transform(metrics_of(report), std::back_inserter(shown),
+                         [](const MetricInfo* metric) { return *metric; });
+  std::string text = rows_of_metrics(
+      shown,
+      report.kinds.size() < 2, [&](const MetricInfo& metric) -> const auto& { return summary_of(report, metric); });
+  if (report.kinds.size() < 2) {
+    return text;
+  }
+  for (const KindQuality& of_kind : report.kinds) {
+    text += std::string("\n") + (of_kind.kind == ElementKind::triangle ? "triangles" : "quadrilaterals") + " alone\n" +
+            rows_of_metrics(
+                all_metrics(of_kind.kind),
+                true, [&](const MetricInfo& metric) -> const auto& { return of_kind[metric.metric]; });
+  }
+  return text;
 }
 
 /// By how much the value changed, in two digits, so that no change is too small to be seen.
@@ -81,7 +102,7 @@ std::string metrics_text(const QualityReport& before, const QualityReport& after
     last.emplace_back(verdict(metric.metric, from, to));
     columns.add_row(std::move(last));
   }
-  return columns.text() + "ok %: of the triangles, in the range that Verdict's manual calls acceptable\n";
+  return columns.text() + "ok %: of the elements, in the range that Verdict's manual calls acceptable\n";
 }
 
 /// A bar for `count` out of `largest`; a count that is not 0 shows at least a dot.
@@ -150,7 +171,7 @@ std::string worst_text(const QualityReport& report, std::span<const std::string>
   for (std::size_t rank = 0; rank < report.worst.size(); ++rank) {
     const WorstElement& element = report.worst[rank];
     std::vector<std::string> row{
-        std::to_string(rank + 1), std::to_string(element.triangle), number_text(element.shape, 6),
+        std::to_string(rank + 1), std::to_string(element.element), number_text(element.shape, 6),
         "(" + general_digits(element.centroid.x, 8) + ", " + general_digits(element.centroid.y, 8) + ")"};
     if (has_regions) {
       row.push_back(element.region < 0 ? "" : region_names[static_cast<std::size_t>(element.region)]);
@@ -186,7 +207,16 @@ std::string counts_text(const std::vector<const QualityReport*>& reports) {
     }
     columns.add_row(std::move(cells));
   };
-  add_row("triangles", &QualityReport::triangles);
+  const auto has_any = [&](std::int64_t QualityReport::*count) {
+    return std::ranges::any_of(reports, [&](const QualityReport* report) { return report->*count > 0; });
+  };
+  const bool has_quadrilaterals = has_any(&QualityReport::quadrilaterals);
+  if (!has_quadrilaterals || has_any(&QualityReport::triangles)) {
+    add_row("triangles", &QualityReport::triangles);
+  }
+  if (has_quadrilaterals) {
+    add_row("quadrilaterals", &QualityReport::quadrilaterals);
+  }
   add_row("inverted", &QualityReport::inverted);
   add_row("degenerate", &QualityReport::degenerate);
   return columns.text();
@@ -201,7 +231,7 @@ std::string format_table(const QualityReport& before, const QualityReport* after
     reports.push_back(after);
   }
   std::string text = counts_text(reports);
-  if (before.triangles == 0) {
+  if (before.elements() == 0) {
     return text;
   }
   text += '\n' + (after == nullptr ? metrics_text(before) : metrics_text(before, *after));

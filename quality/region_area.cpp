@@ -26,7 +26,7 @@ struct CompensatedSum {
 std::vector<double> region_areas(const TriangleView& view, std::span<const std::int32_t> region_of,
                                  std::int32_t region_count) {
   std::vector<CompensatedSum> sums(static_cast<std::size_t>(region_count));
-  for (std::size_t t = 0; t < view.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < view.elements.size(); ++t) {
     CompensatedSum& sum = sums[region_of.empty() ? 0 : static_cast<std::size_t>(region_of[t])];
     sum.add(doubled_area(corner_points(view, t)) / 2);
   }

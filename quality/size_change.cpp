@@ -117,8 +117,8 @@ class RatioRanks {
 }  // namespace
 
 AreaRatios area_ratios(const TriangleView& before, const TriangleView& after, int threads) {
-  const std::size_t count = before.triangles.size();
-  if (after.triangles.size() != count) {
+  const std::size_t count = before.elements.size();
+  if (after.elements.size() != count) {
     throw std::invalid_argument("size_change: the meshes have different triangles");
   }
   const double unit = std::ldexp(1.0, 2 * (after.exponent - before.exponent));

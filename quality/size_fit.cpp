@@ -34,7 +34,7 @@ SizeFit size_fit(const TriangleView& view, std::span<const double> inverse_areas
                  int threads) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Workers workers(threads);
-  std::vector<double> ratios(view.triangles.size(), nan);  // NaN: not compared
+  std::vector<double> ratios(view.elements.size(), nan);  // NaN: not compared
   const auto fit_of = [&](std::int64_t t) -> FitSums {
     const Triangle corners = canonical_corners(view, static_cast<std::size_t>(t));
     if (all_are_fixed(corners, held)) {

@@ -23,7 +23,7 @@ double ratio_of(double a, double b) {
 }
 
 std::vector<double> areas_of(const TriangleView& view, Workers& workers) {
-  std::vector<double> areas(view.triangles.size());
+  std::vector<double> areas(view.elements.size());
   workers.for_blocks(std::ssize(areas), ratio_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
       areas[t] = std::abs(evaluate(Metric::area, corner_points(view, t)));
@@ -36,7 +36,7 @@ std::vector<double> areas_of(const TriangleView& view, Workers& workers) {
 
 std::vector<double> size_ratios(const TriangleView& view, int threads) {
   Workers workers(threads);
-  const MatchedSides sides = match_sides(static_cast<std::int32_t>(view.points.size()), view.triangles, workers);
+  const MatchedSides sides = match_sides(static_cast<std::int32_t>(view.points.size()), view.elements, workers);
   const std::vector<double> areas = areas_of(view, workers);
   std::vector<double> ratios(areas.size(), 1);
   workers.for_blocks(std::ssize(ratios), ratio_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -53,7 +53,7 @@ std::vector<double> size_ratios(const TriangleView& view, int threads) {
 
 MetricSummary size_ratio_summary(const TriangleView& view, int threads) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  if (view.triangles.empty()) {
+  if (view.elements.empty()) {
     return {nan, nan, nan, nan, nan};
   }
   const std::vector<double> ratios = size_ratios(view, threads);
@@ -72,8 +72,18 @@ MetricSummary size_ratio_summary(const TriangleView& view, int threads) {
 
 std::vector<const MetricInfo*> metrics_of(const QualityReport& report) {
   std::vector<const MetricInfo*> metrics;
-  for (const MetricInfo& metric : all_metrics()) {
-    metrics.push_back(&metric);
+  const auto add_those_of = [&](ElementKind kind) {
+    for (const MetricInfo& metric : all_metrics(kind)) {
+      if (std::ranges::find(metrics, metric.metric, &MetricInfo::metric) == metrics.end()) {
+        metrics.push_back(&metric);
+      }
+    }
+  };
+  if (report.triangles > 0 || report.quadrilaterals == 0) {
+    add_those_of(ElementKind::triangle);
+  }
+  if (report.quadrilaterals > 0) {
+    add_those_of(ElementKind::quadrilateral);
   }
   if (report.size_ratio) {
     metrics.push_back(&size_ratio_info);

@@ -35,8 +35,9 @@ inline constexpr MetricInfo size_ratio_info{Metric::edge_ratio,
 /// and errors are those of size_ratios().
 [[nodiscard]] MetricSummary size_ratio_summary(const TriangleView& view, int threads = 0);
 
-/// Every metric that the report has, in the order in which they are shown: all_metrics(), and size_ratio_info where
-/// somebody has asked for it.
+/// Every metric that the report has, in the order in which they are shown: those of triangles and those of
+/// quadrilaterals that triangles have none of, whichever are there, and size_ratio_info where somebody has asked for
+/// it.
 [[nodiscard]] std::vector<const MetricInfo*> metrics_of(const QualityReport& report);
 
 /// The summary of one of these.

@@ -37,7 +37,7 @@ QualityReport open_mesh_quality(const ConstOpenMeshView& mesh, const QualityOpti
   const FlatMesh flat = flat_mesh(*mesh.mesh);
   QualityReport report = std::visit([&](const auto& points) { return report_of(points, flat, options); }, mesh.points);
   for (WorstElement& element : report.worst) {
-    element.triangle = flat.faces[static_cast<std::size_t>(element.triangle)];
+    element.element = flat.faces[static_cast<std::size_t>(element.element)];
   }
   return report;
 }

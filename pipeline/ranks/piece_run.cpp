@@ -135,11 +135,11 @@ class PieceMesh final : public StagedMesh {
     report.degenerate += cells_.repeating;
     std::vector<std::int64_t> cells;
     for (const WorstElement& element : report.worst) {
-      cells.push_back(number_of_triangle(files_, cells_.first, topology_->local_triangle(element.triangle)));
+      cells.push_back(number_of_triangle(files_, cells_.first, topology_->local_triangle(element.element)));
     }
     ranks_->sum(cells);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      report.worst[i].triangle = cells[i];
+      report.worst[i].element = cells[i];
     }
     return quality;
   }
@@ -370,7 +370,7 @@ class PieceMesh final : public StagedMesh {
     }
     std::set<std::string> said;  // by the corners, in their order
     for (std::size_t corner = 0; corner < 3 && place < ids.size(); ++corner) {
-      const std::int32_t v = now.triangles[place][corner];
+      const std::int32_t v = now.elements[place][corner];
       if (topology_->overlap().is_own(v) && held_[static_cast<std::size_t>(v)] == 0) {
         const std::string note = growth_note(view_of(before), now, v, report, worst.quotient, cell,
                                              topology_->overlap().ids[static_cast<std::size_t>(v)]);

@@ -253,7 +253,7 @@ std::string worst_table(std::string_view title, const QualityReport& report, con
       "</thead>\n<tbody>\n",
       title.empty() ? std::string{} : fmt::format("<h3>{}</h3>\n", title), names.empty() ? "" : "<th>region</th>");
   for (const WorstElement& element : report.worst) {
-    html += "<tr>" + html_cell(std::to_string(element.triangle)) +
+    html += "<tr>" + html_cell(std::to_string(element.element)) +
             html_cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
             html_cell(fmt::format("{:.7g}, {:.7g}{}", element.centroid.x, element.centroid.y,
                                   element.all_fixed ? "<small>all corners fixed</small>" : ""),

@@ -159,7 +159,7 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
   }
   Json worst = Json::array();
   for (const WorstElement& element : report.worst) {
-    worst.push_back({{"cell", element.triangle},
+    worst.push_back({{"cell", element.element},
                      {"shape", number_json(element.shape)},
                      {"centroid", Json::array({number_json(element.centroid.x), number_json(element.centroid.y)})},
                      {"region", element.region < 0 ? Json(nullptr) : Json(names[element.region])},

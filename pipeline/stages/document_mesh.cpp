@@ -28,12 +28,12 @@ QualityReport report_of(const RunState& run) {
   }
   report.degenerate += run.mesh.repeating_triangles;
   for (WorstElement& element : report.worst) {
-    const Triangle& corners = run.mesh.triangles[static_cast<std::size_t>(element.triangle)];
+    const Triangle& corners = run.mesh.triangles[static_cast<std::size_t>(element.element)];
     if (run.regions.count() > 1) {
-      element.region = run.regions.of_triangle[static_cast<std::size_t>(element.triangle)];
+      element.region = run.regions.of_triangle[static_cast<std::size_t>(element.element)];
     }
     element.all_fixed = all_are_fixed(corners, run.found.fixed);
-    element.triangle = run.mesh.cells[static_cast<std::size_t>(element.triangle)];
+    element.element = run.mesh.cells[static_cast<std::size_t>(element.element)];
     element.centroid = run.local.frame.leave(element.centroid);
     if (run.mesh.map) {
       element.centroid = run.mesh.map->degrees(element.centroid);

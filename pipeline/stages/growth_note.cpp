@@ -26,8 +26,8 @@ namespace {
 class Fan {
  public:
   Fan(const TriangleView& view, std::int32_t vertex) : view_(&view), vertex_(vertex) {
-    for (std::size_t t = 0; t < view.triangles.size(); ++t) {
-      if (std::ranges::find(view.triangles[t], vertex) != view.triangles[t].end()) {
+    for (std::size_t t = 0; t < view.elements.size(); ++t) {
+      if (std::ranges::find(view.elements[t], vertex) != view.elements[t].end()) {
         triangles_.push_back(t);
       }
     }
@@ -39,7 +39,7 @@ class Fan {
   Point2<double> middle() const {
     Point2<double> sum{0, 0};
     for (const std::size_t t : triangles_) {
-      for (const std::int32_t v : view_->triangles[t]) {
+      for (const std::int32_t v : view_->elements[t]) {
         const Point2<double> point = view_->points[v];
         sum = v == vertex_ ? sum : Point2<double>{sum.x + point.x, sum.y + point.y};
       }
@@ -101,9 +101,9 @@ bool may_have_growth_note(const SmoothingOptions& options, const QualityReport& 
 WorstTriangle worst_with_free_corner(const TriangleView& view, std::span<const std::uint8_t> fixed,
                                      const std::function<bool(std::size_t)>& counts) {
   WorstTriangle worst;
-  for (std::size_t t = 0; t < view.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < view.elements.size(); ++t) {
     const double quotient = shape_quotient(corner_points(view, t));
-    if (quotient < worst.quotient && counts(t) && !all_are_fixed(view.triangles[t], fixed)) {
+    if (quotient < worst.quotient && counts(t) && !all_are_fixed(view.elements[t], fixed)) {
       worst = {quotient, static_cast<std::int64_t>(t)};
     }
   }
@@ -142,7 +142,7 @@ void note_growth_bound(RunState& run, const TriangleView& before) {
   if (worst.triangle < 0) {
     return;
   }
-  for (const std::int32_t v : now.triangles[worst.triangle]) {
+  for (const std::int32_t v : now.elements[worst.triangle]) {
     if (run.found.fixed[v] == 0) {
       if (std::string said =
               growth_note(before, now, v, run.result.before, worst.quotient, run.mesh.cells[worst.triangle], v);

@@ -21,7 +21,7 @@ constexpr std::int64_t triangle_grain = 16384;
 
 /// The flat triangles of the view, ascending.
 std::vector<ListedFlat> list_flat(const TriangleView& view, Workers& workers) {
-  const Blocks blocks(std::ssize(view.triangles), triangle_grain, workers);
+  const Blocks blocks(std::ssize(view.elements), triangle_grain, workers);
   std::vector<std::vector<ListedFlat>> found(static_cast<std::size_t>(blocks.count()));
   blocks.for_each(workers, [&](std::int64_t block, std::int64_t begin, std::int64_t end) {
     std::vector<ListedFlat>& own = found[block];

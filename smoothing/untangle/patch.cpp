@@ -42,7 +42,7 @@ Patch PatchCutter::cut(std::span<const std::int32_t> free) {
         patch.triangles.push_back({v, b, c});
         continue;
       }
-      const Triangle turned = canonical_corners({v, b, c}, false);
+      const Triangle turned = canonical_corners(Triangle{v, b, c}, false);
       const std::int32_t first = patch.offsets[turned[0]];
       const std::int32_t last = patch.offsets[turned[0] + 1];
       for (std::int32_t j = first; j < last; ++j) {

@@ -44,7 +44,8 @@ static_assert(std::is_convertible_v<std::vector<std::array<long long, 3>>&, Inde
 static_assert(std::is_convertible_v<const Eigen::Matrix3Xi&, IndexView>);
 static_assert(!std::is_convertible_v<std::vector<double>&, IndexView>);
 static_assert(!std::is_convertible_v<std::vector<std::uint8_t>&, IndexView>);
-static_assert(!std::is_convertible_v<std::vector<std::array<int, 4>>&, IndexView>);
+static_assert(std::is_convertible_v<std::vector<std::array<int, 4>>&, IndexView>);
+static_assert(!std::is_convertible_v<std::vector<std::array<int, 5>>&, IndexView>);
 static_assert(!std::is_convertible_v<Eigen::MatrixXi&, IndexView>);
 
 std::vector<Triangle> seen(const IndexView& view) {
@@ -88,6 +89,34 @@ TEST_CASE("vertex numbers of every type, in every form of memory, are the same t
   check_type<std::size_t>(mesh);
 }
 
+template <class T>
+void check_type_of_four() {
+  const std::vector<std::array<T, 4>> listed{{0, 1, 2, 3}, {3, 2, 4, static_cast<T>(-1)}};
+  const IndexView view(listed);
+  REQUIRE(view.may_have_quadrilaterals());
+  std::vector<trismooth::MixedElement> converted;
+  const auto elements = view.elements(5, converted);
+  REQUIRE(elements.size() == 2);
+  CHECK(elements[0] == trismooth::MixedElement{0, 1, 2, 3});
+  CHECK(elements[1] == trismooth::MixedElement{3, 2, 4, trismooth::no_corner});
+  CHECK(converted.empty() == (std::is_same_v<T, std::int32_t>));
+}
+
+TEST_CASE("four vertex numbers of every type are the same elements, and -1 in the last place is a triangle") {
+  check_type_of_four<std::int32_t>();
+  check_type_of_four<std::uint32_t>();
+  check_type_of_four<std::int64_t>();
+  check_type_of_four<std::uint64_t>();
+  std::vector<trismooth::MixedElement> converted;
+  const std::vector<std::array<std::int64_t, 4>> too_large{{0, 1, 2, std::int64_t{1} << 32}};
+  CHECK(refusal([&] { static_cast<void>(IndexView(too_large).elements(5, converted)); }) ==
+        "mesh: element 0 names vertex 4294967296; vertices are numbered from 0 to 4");
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  CHECK_FALSE(IndexView(triangles).may_have_quadrilaterals());
+  CHECK(refusal([&] { static_cast<void>(IndexView(triangles).elements(5, converted)); }) ==
+        "argument: elements: three vertex numbers each, expected four");
+}
+
 TEST_CASE("triangles of int32 are read where they are") {
   const Mesh mesh = test_meshes::star(5);
   const std::vector<std::int32_t> indices(mesh.indices().begin(), mesh.indices().end());
@@ -115,7 +144,11 @@ TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
   CHECK(refusal([&] {
           const Eigen::MatrixXi quads = Eigen::MatrixXi::Zero(2, 4);
           smooth(trismooth::xy_points(xy), trismooth::triangle_rows(quads));
-        }) == "argument: triangles: 4 vertex numbers each, expected three");
+        }) == "argument: triangles: four vertex numbers each, expected three (quadrilaterals are for quality() alone)");
+  CHECK(refusal([&] {
+          const Eigen::MatrixXi fives = Eigen::MatrixXi::Zero(2, 5);
+          smooth(trismooth::xy_points(xy), trismooth::triangle_rows(fives));
+        }) == "argument: triangles: 5 vertex numbers each, expected three");
   CHECK(xy == before);
   CHECK(refusal([] { static_cast<void>(trismooth::plan(std::int64_t{1} << 31, std::span<const int>{})); }) ==
         "mesh: more than 2147483647 vertices");

@@ -21,9 +21,9 @@ TEST_CASE("rotations of a triangle have the same canonical corners, the smallest
 TEST_CASE("a view without reversal flags has no reversed triangle") {
   const std::vector<Triangle> triangles{{2, 1, 0}, {4, 3, 5}};
   const std::vector<std::uint8_t> reversed{1, 0};
-  CHECK(canonical_corners({{}, triangles, {}, 0}, 0) == Triangle{0, 2, 1});
-  CHECK(canonical_corners({{}, triangles, reversed, 0}, 0) == Triangle{0, 1, 2});
-  CHECK(canonical_corners({{}, triangles, reversed, 0}, 1) == Triangle{3, 5, 4});
+  CHECK(canonical_corners(TriangleView{{}, triangles, {}, 0}, 0) == Triangle{0, 2, 1});
+  CHECK(canonical_corners(TriangleView{{}, triangles, reversed, 0}, 0) == Triangle{0, 1, 2});
+  CHECK(canonical_corners(TriangleView{{}, triangles, reversed, 0}, 1) == Triangle{3, 5, 4});
 }
 
 }  // namespace trismooth::triangle_view_test

@@ -56,14 +56,14 @@ void check_same(const QualityReport& found, const QualityReport& expected) {
   CHECK(found.inverted == expected.inverted);
   CHECK(found.degenerate == expected.degenerate);
   CHECK(found.shape_histogram == expected.shape_histogram);
-  for (std::size_t m = 0; m < trismooth::metric_count; ++m) {
+  for (std::size_t m = 0; m < trismooth::all_metrics().size(); ++m) {
     CHECK(found.metrics[m].min == expected.metrics[m].min);
     CHECK(found.metrics[m].mean == expected.metrics[m].mean);
     CHECK(found.metrics[m].max == expected.metrics[m].max);
   }
   REQUIRE(found.worst.size() == expected.worst.size());
   for (std::size_t i = 0; i < found.worst.size(); ++i) {
-    CHECK(found.worst[i].triangle == expected.worst[i].triangle);
+    CHECK(found.worst[i].element == expected.worst[i].element);
     CHECK(found.worst[i].shape == expected.worst[i].shape);
     CHECK(found.worst[i].centroid == expected.worst[i].centroid);
   }
@@ -345,7 +345,7 @@ TEST_CASE("the quality along other axes is that of the two, in a tilted plane ne
   CHECK(report.inverted == 0);
   CHECK(report[Metric::shape].min == Approx(flat[Metric::shape].min));
   CHECK(report[Metric::area].mean == Approx(flat[Metric::area].mean));
-  CHECK(report.worst.front().triangle == flat.worst.front().triangle);
+  CHECK(report.worst.front().element == flat.worst.front().element);
   auto bent = mesh_of<FullMesh>(sample);
   bent.point(OpenMesh::VertexHandle(50))[2] += 0.5;
   CHECK_THROWS_AS(trismooth::quality(bent), trismooth::MeshError);
@@ -355,7 +355,7 @@ TEST_CASE("of deleted faces quality knows nothing, and names the others by their
   const Sample sample = shuffled_grid(12, 37);
   auto mesh = mesh_of<FullMesh>(sample);
   const QualityReport whole = trismooth::quality(mesh);
-  const auto worst = static_cast<int>(whole.worst[0].triangle);
+  const auto worst = static_cast<int>(whole.worst[0].element);
   mesh.delete_face(OpenMesh::FaceHandle(0), true);
   mesh.delete_face(OpenMesh::FaceHandle(worst), true);
   mesh.delete_vertex(OpenMesh::VertexHandle(0), true);
@@ -365,8 +365,8 @@ TEST_CASE("of deleted faces quality knows nothing, and names the others by their
   CHECK(report.triangles < whole.triangles - 2);
   std::size_t at = 0;
   for (const trismooth::WorstElement& element : whole.worst) {
-    if (!mesh.status(OpenMesh::FaceHandle(static_cast<int>(element.triangle))).deleted()) {
-      CHECK(report.worst[at].triangle == element.triangle);
+    if (!mesh.status(OpenMesh::FaceHandle(static_cast<int>(element.element))).deleted()) {
+      CHECK(report.worst[at].element == element.element);
       CHECK(report.worst[at].shape == element.shape);
       ++at;
     }

@@ -14,8 +14,8 @@
 
 using trismooth::CornerPoints;
 using trismooth::InstructionSet;
+using trismooth::KindValues;
 using trismooth::Metric;
-using trismooth::MetricValues;
 
 TEST_CASE("metrics of triangles side by side have the bits of each metric of each triangle, by all instructions") {
   test_meshes::Random random(7);
@@ -34,11 +34,11 @@ TEST_CASE("metrics of triangles side by side have the bits of each metric of eac
   }
   for (const InstructionSet most : {InstructionSet::baseline, InstructionSet::avx2}) {
     const LimitedInstructions limited(most);
-    std::vector<MetricValues> values(triangles.size());
+    std::vector<KindValues<CornerPoints>> values(triangles.size());
     trismooth::evaluate_all(triangles, values);
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto& [a, b, c] = triangles[t];
-      for (std::size_t m = 0; m < trismooth::metric_count; ++m) {
+      for (std::size_t m = 0; m < trismooth::all_metrics().size(); ++m) {
         CAPTURE(t, m);
         REQUIRE(same_bits(values[t][m], trismooth::evaluate(static_cast<Metric>(m), a, b, c)));
       }

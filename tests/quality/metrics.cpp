@@ -284,14 +284,19 @@ TEST_CASE("every value lies in the metric's full range") {
 }
 
 TEST_CASE("the metrics are listed in the order of the enumeration and found by name") {
-  REQUIRE(all_metrics().size() == metric_count);
-  for (std::size_t i = 0; i < metric_count; ++i) {
-    const MetricInfo& metric = all_metrics()[i];
-    CHECK(static_cast<std::size_t>(metric.metric) == i);
-    CHECK(&info(metric.metric) == &metric);
-    CHECK(metric_named(metric.name) == metric.metric);
-    CHECK_FALSE(metric.meaning.empty());
+  for (const ElementKind kind : {ElementKind::triangle, ElementKind::quadrilateral}) {
+    REQUIRE(std::ranges::is_sorted(all_metrics(kind), {}, &MetricInfo::metric));
+    for (const MetricInfo& metric : all_metrics(kind)) {
+      CHECK(&info(metric.metric, kind) == &metric);
+      CHECK(metric_named(metric.name, kind) == metric.metric);
+      CHECK_FALSE(metric.meaning.empty());
+    }
   }
+  CHECK(metric_named("skew", ElementKind::quadrilateral) == Metric::skew);
+  CHECK_FALSE(metric_named("skew").has_value());
+  CHECK_FALSE(metric_named("radius_ratio", ElementKind::quadrilateral).has_value());
+  CHECK_THROWS_AS(info(Metric::taper), std::invalid_argument);
+  CHECK_THROWS_AS(is_acceptable(Metric::radius_ratio, 1, ElementKind::quadrilateral), std::invalid_argument);
   CHECK_FALSE(metric_named("Shape").has_value());
   CHECK_FALSE(metric_named("").has_value());
 }

@@ -54,7 +54,7 @@ void require_equal(const QualityReport& a, const QualityReport& b) {
   REQUIRE(a.inverted == b.inverted);
   REQUIRE(a.degenerate == b.degenerate);
   REQUIRE(a.shape_histogram == b.shape_histogram);
-  for (std::size_t m = 0; m < trismooth::metric_count; ++m) {
+  for (std::size_t m = 0; m < trismooth::all_metrics().size(); ++m) {
     CAPTURE(m);
     REQUIRE(a.metrics[m].min == b.metrics[m].min);
     REQUIRE(a.metrics[m].mean == b.metrics[m].mean);
@@ -62,7 +62,7 @@ void require_equal(const QualityReport& a, const QualityReport& b) {
   }
   REQUIRE(a.worst.size() == b.worst.size());
   for (std::size_t i = 0; i < a.worst.size(); ++i) {
-    REQUIRE(a.worst[i].triangle == b.worst[i].triangle);
+    REQUIRE(a.worst[i].element == b.worst[i].element);
     REQUIRE(a.worst[i].shape == b.worst[i].shape);
   }
 }
@@ -205,7 +205,7 @@ TEST_CASE("each triangle has its value of each metric, in its place") {
   values[static_cast<std::size_t>(Metric::shape)] = shapes;
   CHECK(refusal([&] { quality(mesh.points, mesh.triangles, values); }) ==
         "argument: the values of shape: " + std::to_string(count - 1) + " places for " + std::to_string(count) +
-            " triangles");
+            " elements");
 }
 
 TEST_CASE("triangles analysed once have the quality of those analysed each time") {

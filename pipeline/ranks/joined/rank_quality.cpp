@@ -176,8 +176,8 @@ QualityReport RankQuality::report(std::span<const Point2<double>> points, const 
     QualityParts made = quality_parts(view, options);
     all.parts.insert(all.parts.end(), made.parts.begin(), made.parts.end());
     for (WorstElement& element : made.worst) {
-      const std::size_t place = first + static_cast<std::size_t>(element.triangle);
-      element.triangle = first_block(ranks_.rank()) * block_size + static_cast<std::int64_t>(place);
+      const std::size_t place = first + static_cast<std::size_t>(element.element);
+      element.element = first_block(ranks_.rank()) * block_size + static_cast<std::int64_t>(place);
       element.all_fixed = all_fixed_[place] != 0;
       element.region = regions_.empty() ? -1 : regions_[place];
       element.centroid = frame.leave(element.centroid);
