@@ -69,6 +69,15 @@ class Maker:
             all_of_them = np.hstack([all_of_them, all_of_them[:, ::-1]])
         return all_of_them
 
+    def quadrilaterals(self, columns: int, rows: int) -> np.ndarray:
+        """Four corners each, the last of some -1, which makes triangles of them."""
+        first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+        elements = np.column_stack([first, first + 1, first + columns + 2, first + columns + 1])
+        elements[self.numbers.random(len(elements)) < self.random.choice([0, 0.3, 1]), 3] = -1
+        if self.one_in(8):
+            elements.flat[self.random.randrange(elements.size)] = self.random.choice([-1, -2, elements.max() + 1, 2**31, 0])
+        return elements
+
     def spoiled(self, array: np.ndarray, types: list) -> object:
         """The array in another type, layout, shape, or with a strange number; mostly as it is."""
         if self.one_in(5):
@@ -257,8 +266,13 @@ def call(seed: int) -> str:
         elif make.one_in(5):
             follow(make, points, triangles, arguments, out)
         elif make.one_in(8):
-            result = trismooth.quality(points, triangles)
-            assert not any(np.isnan(result[name]).any() for name in result), "a NaN among the metrics"
+            elements = make.spoiled(make.quadrilaterals(columns, rows), INTEGERS) if make.one_in(2) else triangles
+            result = trismooth.quality(points, elements)
+            of_both = set(result) - {"radius_ratio", "skew", "taper"}
+            assert not any(np.isnan(result[name]).any() for name in of_both), "a NaN among the metrics"
+            for one, other in (("skew", "taper"), ("skew", "radius_ratio")):
+                none = [np.isnan(result[name]) for name in (one, other) if name in result]
+                assert len(none) < 2 or np.array_equal(none[0], none[1] != (other == "radius_ratio")), "metrics of both kinds"
         else:
             result = trismooth.smooth(points, triangles, **arguments)
             if before is not None and result.points is not points:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/errors.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -38,9 +39,9 @@ std::string with_argument(const std::string& message) {
   if (message.starts_with("points: ") || message.starts_with("triangles: ")) {
     return message;
   }
-  const std::size_t triangle = message.find("triangle");
+  const std::size_t element = std::min(message.find("triangle"), message.find("element"));
   const std::size_t vertex = message.find("vert");
-  return (triangle == vertex ? "" : triangle < vertex ? "triangles: " : "points: ") + message;
+  return (element == vertex ? "" : element < vertex ? "triangles: " : "points: ") + message;
 }
 
 void make_public(nb::handle exception, const char* description) {

@@ -245,7 +245,7 @@ PointView packed_points(std::byte* numbers, std::size_t size, std::size_t compon
                                      : rows(reinterpret_cast<double*>(numbers));
 }
 
-TriangleArray::TriangleArray(const HostArray& array)
+TriangleArray::TriangleArray(const HostArray& array, bool may_have_quadrilaterals)
     : first_(array.data()), is_wide_(array.item_size() == sizeof(std::int64_t)), is_signed_(array.kind() == 'i') {
   if (array.dimensions() == 1 && array.extent(0) == 0) {
     size_ = 0;  // an empty list
@@ -259,9 +259,13 @@ TriangleArray::TriangleArray(const HostArray& array)
   if (!is_integer(array)) {
     array.raise_type("integers are needed, not " + array.type_text());
   }
-  if (array.dimensions() != 2 || (array.extent(1) != 3 && array.extent(1) != 6)) {
-    array.raise_value("shape " + array.shape_text() + "; expected (M, 3), or (M, 6) for triangles of six nodes" +
-                      transposed(array, "triangles", 3));
+  const auto is_taken = [&](std::size_t numbers) {
+    return numbers == 3 || numbers == 6 || (numbers == 4 && may_have_quadrilaterals);
+  };
+  if (array.dimensions() != 2 || !is_taken(array.extent(1))) {
+    array.raise_value("shape " + array.shape_text() + "; expected (M, 3)" +
+                      (may_have_quadrilaterals ? ", (M, 4) with quadrilaterals," : ",") +
+                      " or (M, 6) for triangles of six nodes" + transposed(array, "triangles", 3));
   }
   size_ = array.extent(0);
   nodes_ = array.extent(1);
@@ -305,7 +309,7 @@ auto TriangleArray::with_rows(const Visit& visit) const {
 
 IndexView TriangleArray::corners() const {
   return with_rows([](auto rows) {
-    rows.columns = 3;
+    rows.columns = rows.columns == 4 ? 4 : 3;
     return IndexView(rows);
   });
 }

@@ -88,11 +88,12 @@ class TriangleArray {
  public:
   /// Raises for another shape or type. Views the array, or copies it where its numbers are of a type, or lie in a way,
   /// that IndexView does not take.
-  explicit TriangleArray(const HostArray& array);
+  /// `may_have_quadrilaterals`: whether rows of four numbers are taken, of which the last is -1 of a triangle.
+  explicit TriangleArray(const HostArray& array, bool may_have_quadrilaterals = false);
 
   std::size_t size() const { return size_; }
   std::size_t nodes() const { return nodes_; }
-  /// Corners: of triangles of six nodes the first three.
+  /// Corners: of triangles of six nodes the first three; four where quadrilaterals may be among them.
   IndexView corners() const;
   /// All numbers of triangles of six nodes. Throws MeshError for one that is none of the vertices and has no place in
   /// 32 bits.

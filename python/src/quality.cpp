@@ -25,6 +25,7 @@
 #include "trismooth/python/results.h"
 #include "trismooth/python/smoothing.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/size_ratio.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -35,12 +36,18 @@ namespace {
 
 using Values = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
 
-/// The report, and a list of arrays in the order of the metrics, one value a triangle.
+/// Copied: another thread may change the caller's while they are read.
+template <class Corners>
+std::vector<Corners> copied(std::span<const Corners> listed, std::vector<Corners> converted) {
+  return listed.data() == converted.data() ? std::move(converted) : std::vector<Corners>(listed.begin(), listed.end());
+}
+
+/// The report, and by its name the values of each metric that elements of the mesh have, one an element.
 nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_object, nb::handle threads_object) {
   const HostArray points_array(points_object, "points");
   const PointArray points(points_array);
   const HostArray numbers(triangles_object, "triangles");
-  const TriangleArray triangles(numbers);
+  const TriangleArray triangles(numbers, true);
   const int threads = threads_of(threads_object);
   const std::size_t count = triangles.size();
   auto values = std::make_unique<std::vector<double>>(metric_count * count);
@@ -54,25 +61,33 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
     Workers workers(threads);
     BulkVector<std::byte> packed(points.bytes());
     points.copy_to(packed.data(), workers);
+    const auto report_of = [&](const auto& elements) {
+      return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()), elements,
+                     places, QualityOptions{.threads = threads});
+    };
     report = naming_arguments([&] {
-      // Copied: another thread may change the caller's while they are read.
-      std::vector<Triangle> kept;
-      const std::span<const Triangle> listed =
-          triangles.corners().triangles(static_cast<std::int64_t>(points.size()), kept);
-      if (listed.data() != kept.data()) {
-        kept.assign(listed.begin(), listed.end());
+      const auto vertex_count = static_cast<std::int64_t>(points.size());
+      const IndexView corners = triangles.corners();
+      if (corners.may_have_quadrilaterals()) {
+        std::vector<MixedElement> kept;
+        const std::span<const MixedElement> listed = corners.elements(vertex_count, kept);
+        const std::vector<MixedElement> elements = copied(listed, std::move(kept));
+        return report_of(elements);
       }
-      return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()), kept, places,
-                     QualityOptions{.threads = threads});
+      std::vector<Triangle> kept;
+      const std::span<const Triangle> listed = corners.triangles(vertex_count, kept);
+      const std::vector<Triangle> elements = copied(listed, std::move(kept));
+      return report_of(elements);
     });
   }
   double* const first = values->data();
   const nb::capsule owner(values.release(), [](void* memory) noexcept {
     const std::unique_ptr<std::vector<double>> gone(static_cast<std::vector<double>*>(memory));
   });
-  nb::list arrays;
-  for (std::size_t m = 0; m < metric_count; ++m) {
-    arrays.append(Values(first + m * count, {count}, owner));
+  nb::dict arrays;
+  for (const MetricInfo* const metric : metrics_of(report)) {
+    const auto place = static_cast<std::size_t>(metric->metric);
+    arrays[nb::str(metric->name.data(), metric->name.size())] = Values(first + place * count, {count}, owner);
   }
   return nb::make_tuple(std::move(report), arrays);
 }
@@ -87,13 +102,10 @@ nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_co
   {
     const nb::gil_scoped_release no_gil;
     naming_arguments([&] {
-      // Copied: another thread may change the caller's while they are read.
-      std::vector<Triangle> kept;
+      std::vector<Triangle> converted;
       const std::span<const Triangle> listed =
-          triangles.corners().triangles(static_cast<std::int64_t>(vertex_count), kept);
-      if (listed.data() != kept.data()) {
-        kept.assign(listed.begin(), listed.end());
-      }
+          triangles.corners().triangles(static_cast<std::int64_t>(vertex_count), converted);
+      const std::vector<Triangle> kept = copied(listed, std::move(converted));
       const auto count = static_cast<std::int32_t>(vertex_count);
       if (std::ranges::none_of(kept, [&](const Triangle& triangle) { return is_faulty(count, triangle); })) {
         Workers workers(1);
@@ -108,7 +120,7 @@ nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_co
 /// The report with other numbers of triangles: numbers[t] in place of t.
 QualityReport renumbered(QualityReport report, const nb::object& numbers) {
   for (WorstElement& element : report.worst) {
-    element.triangle = nb::cast<std::int64_t>(nb::int_(numbers[element.triangle]));
+    element.element = nb::cast<std::int64_t>(nb::int_(numbers[element.element]));
   }
   return report;
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/python/results.h"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
@@ -10,8 +13,10 @@
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quality_table.h"
+#include "trismooth/quality/size_ratio.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -20,12 +25,31 @@ namespace trismooth::python {
 
 namespace {
 
-const MetricSummary& summary_of(const QualityReport& report, const std::string& name) {
-  const auto metric = metric_named(name);
-  if (!metric) {
-    throw nb::key_error(("'" + name + "' is no metric; valid are " + metric_names()).c_str());
+/// The summary of the metric of that name, of a report or of one kind, which have `metrics`.
+template <class Report, class Metrics>
+const MetricSummary& summary_in(const Report& report, const Metrics& metrics, const std::string& name) {
+  std::string names;
+  for (const MetricInfo& metric : metrics) {
+    if (metric.name == name) {
+      return report[metric.metric];
+    }
+    add_to_list(names, metric.name);
   }
-  return report[*metric];
+  throw nb::key_error(("'" + name + "' is no metric; valid are " + names).c_str());
+}
+
+const MetricSummary& summary_of_kind(const KindQuality& of_kind, const std::string& name) {
+  return summary_in(of_kind, all_metrics(of_kind.kind), name);
+}
+
+const MetricSummary& summary_of_all(const QualityReport& report, const std::string& name) {
+  std::vector<MetricInfo> metrics;
+  std::ranges::transform(metrics_of(report), std::back_inserter(metrics), [](const MetricInfo* of) { return *of; });
+  return summary_in(report, metrics, name);
+}
+
+const char* name_of(ElementKind kind) {
+  return kind == ElementKind::triangle ? "triangle" : "quadrilateral";
 }
 
 nb::tuple pair_of(Point2<double> point) {
@@ -78,48 +102,75 @@ nb::list reverted_of(const Outcome& outcome) {
 }
 
 void bind_quality(nb::module_& module) {
-  nb::class_<MetricSummary>(module, "MetricSummary", "One metric over all triangles of a mesh.")
+  nb::class_<MetricSummary>(module, "MetricSummary", "One metric over all elements of a mesh, or over those of a kind.")
       .def_ro("min", &MetricSummary::min, "The smallest value.")
       .def_ro("mean", &MetricSummary::mean, "The mean.")
       .def_ro("max", &MetricSummary::max, "The largest value.")
-      .def_ro("stddev", &MetricSummary::stddev, "The standard deviation over these triangles.")
+      .def_ro("stddev", &MetricSummary::stddev, "The standard deviation over these elements.")
       .def_ro("acceptable_fraction", &MetricSummary::acceptable_fraction,
-              "The part of the triangles in the range that Verdict's manual calls acceptable, 0 to 1.")
+              "The part of the elements in the range that Verdict's manual calls acceptable for their kind, 0 to 1.")
       .def("__repr__", [](const MetricSummary& summary) {
         std::ostringstream text;
         text << "MetricSummary(min=" << summary.min << ", mean=" << summary.mean << ", max=" << summary.max
              << ", stddev=" << summary.stddev << ", acceptable_fraction=" << summary.acceptable_fraction << ")";
         return text.str();
       });
-  nb::class_<WorstElement>(module, "WorstElement", "One of the triangles with the smallest shape.")
-      .def_ro("triangle", &WorstElement::triangle, "Its number, from 0.")
+  nb::class_<WorstElement>(module, "WorstElement", "One of the elements with the smallest shape.")
+      .def_ro("triangle", &WorstElement::element, "Its number, from 0.")
       .def_ro("shape", &WorstElement::shape, "Its shape; negative where it is inverted.")
       .def_prop_ro(
           "centroid", [](const WorstElement& element) { return pair_of(element.centroid); }, "x and y.")
       .def_ro("all_fixed", &WorstElement::all_fixed, "No smoothing can change it; of files alone.")
       .def("__repr__", [](const WorstElement& element) {
         std::ostringstream text;
-        text << "WorstElement(triangle=" << element.triangle << ", shape=" << element.shape << ", centroid=("
+        text << "WorstElement(triangle=" << element.element << ", shape=" << element.shape << ", centroid=("
              << element.centroid.x << ", " << element.centroid.y << "))";
         return text.str();
       });
+  nb::class_<KindQuality>(
+      module, "KindQuality",
+      "The quality of the triangles of a mesh, or of its quadrilaterals.\n\n`of_kind['shape']` is the "
+      "MetricSummary of a metric.")
+      .def_prop_ro(
+          "kind", [](const KindQuality& of_kind) { return name_of(of_kind.kind); }, "\"triangle\", \"quadrilateral\".")
+      .def_ro("elements", &KindQuality::elements, "How many there are.")
+      .def_ro("inverted", &KindQuality::inverted, "Those of shape < 0.")
+      .def_ro("degenerate", &KindQuality::degenerate, "Those whose shape is 0.")
+      .def("__getitem__", &summary_of_kind, "metric"_a, nb::rv_policy::reference_internal)
+      .def("__repr__", [](const KindQuality& of_kind) {
+        std::ostringstream text;
+        text << "<KindQuality: " << of_kind.elements << " " << name_of(of_kind.kind) << "s, " << of_kind.inverted
+             << " inverted, shape from " << of_kind[Metric::shape].min << ", mean " << of_kind[Metric::shape].mean
+             << ">";
+        return text.str();
+      });
   nb::class_<QualityReport>(module, "QualityReport",
-                            "The quality of a mesh's triangles.\n\n`report['shape']` is the MetricSummary of a metric; "
+                            "The quality of a mesh's elements.\n\n`report['shape']` is the MetricSummary of a metric; "
                             "`str(report)` a table.")
       .def_ro("triangles", &QualityReport::triangles, "How many there are.")
+      .def_ro("quadrilaterals", &QualityReport::quadrilaterals, "How many there are.")
+      .def_ro("kinds", &QualityReport::kinds,
+              "A KindQuality of the triangles and one of the quadrilaterals; empty where all are triangles.")
       .def_ro("inverted", &QualityReport::inverted, "Those of shape < 0.")
       .def_ro("degenerate", &QualityReport::degenerate, "Those without area.")
       .def_ro("histogram", &QualityReport::shape_histogram,
-              "20 counts of triangles by their shape, from 0 to 1; inverted ones are in none.")
-      .def_ro("worst", &QualityReport::worst, "The triangles of smallest shape, the worst first; 10 at most.")
-      .def("__getitem__", &summary_of, "metric"_a, nb::rv_policy::reference_internal)
+              "20 counts of elements by their shape, from 0 to 1; inverted ones are in none.")
+      .def_ro("worst", &QualityReport::worst, "The elements of smallest shape, the worst first; 10 at most.")
+      .def("__getitem__", &summary_of_all, "metric"_a, nb::rv_policy::reference_internal)
       .def("__str__", [](const QualityReport& report) { return format_table(report); })
       .def("_repr_html_",
            [](nb::handle report) { return nb::module_::import_("trismooth._html").attr("quality_html")(report); })
       .def("__repr__", [](const QualityReport& report) {
         std::ostringstream text;
-        text << "<QualityReport: " << report.triangles << " triangles, " << report.inverted << " inverted, shape from "
-             << report[Metric::shape].min << ", mean " << report[Metric::shape].mean << ">";
+        text << "<QualityReport: ";
+        if (report.quadrilaterals == 0 || report.triangles > 0) {
+          text << report.triangles << " triangles, ";
+        }
+        if (report.quadrilaterals > 0) {
+          text << report.quadrilaterals << " quadrilaterals, ";
+        }
+        text << report.inverted << " inverted, shape from " << report[Metric::shape].min << ", mean "
+             << report[Metric::shape].mean << ">";
         return text.str();
       });
 }

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 import pytest
 
@@ -54,6 +56,7 @@ def test_unknown_metrics_are_told():
     with pytest.raises(KeyError, match="no metric"):
         quality.summary["skewness"]
     assert set(quality) == set(quality.keys()) == set(trismooth.METRICS) and len(quality) == 10
+    assert repr(copy.copy(quality)) == repr(quality)
 
 
 def test_values_outlive_the_quality(mesh):
@@ -66,3 +69,94 @@ def test_values_outlive_the_quality(mesh):
 def test_it_prints_as_a_table():
     text = str(trismooth.quality(*grid(3, 3)))
     assert "min_angle" in text and "acceptable" in text
+
+
+def mixed_mesh(columns=12, rows=9, jitter=0.2, seed=3):
+    """A grid of quadrilaterals, every third of which is two triangles."""
+    random = np.random.default_rng(seed)
+    x, y = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0))
+    points = np.column_stack([x.ravel(), y.ravel()]) + random.uniform(-jitter, jitter, ((columns + 1) * (rows + 1), 2))
+    elements = []
+    for row in range(rows):
+        for column in range(columns):
+            a = row * (columns + 1) + column
+            b, c, d = a + 1, a + columns + 2, a + columns + 1
+            elements += [[a, b, c, -1], [a, c, d, -1]] if random.random() < 1 / 3 else [[a, b, c, d]]
+    return points, np.array(elements)
+
+
+def shape_of_quadrilateral(corners):
+    """The smallest 2 sin(angle) |a| |b| / (|a|^2 + |b|^2) over the corners, from angles by the law of cosines."""
+    values = []
+    for i in range(4):
+        here, to, back = corners[i], corners[(i + 1) % 4], corners[i - 1]
+        a, b, c = (np.linalg.norm(d) for d in (to - here, back - here, to - back))
+        sine = np.sqrt(max(0.0, 1 - ((a**2 + b**2 - c**2) / (2 * a * b)) ** 2))
+        values.append(2 * sine * a * b / (a**2 + b**2))
+    return min(values)
+
+
+def test_quadrilaterals_and_triangles_have_their_metrics_and_a_summary_each():
+    points, elements = mixed_mesh()
+    quality = trismooth.quality(points, elements)
+    is_triangle = elements[:, 3] < 0
+    assert set(quality) == {*trismooth.METRICS, "skew", "taper"}
+    for name in quality:
+        values = quality[name]
+        expected = {"radius_ratio": is_triangle, "skew": ~is_triangle, "taper": ~is_triangle}.get(name, np.full(len(elements), True))
+        np.testing.assert_array_equal(np.isfinite(values), expected)
+        assert quality.summary[name].min == np.nanmin(values) and quality.summary[name].max == np.nanmax(values)
+        np.testing.assert_allclose(quality.summary[name].mean, np.nanmean(values), rtol=1e-12)
+    alone = trismooth.quality(points, elements[is_triangle][:, :3])
+    np.testing.assert_array_equal(quality.shape[is_triangle], alone.shape)
+    expected = [shape_of_quadrilateral(points[corners]) for corners in elements[~is_triangle]]
+    np.testing.assert_allclose(quality.shape[~is_triangle], expected, rtol=1e-9)
+    triangles, quadrilaterals = quality.summary.kinds
+    assert (triangles.kind, quadrilaterals.kind) == ("triangle", "quadrilateral")
+    assert (triangles.elements, quadrilaterals.elements) == (is_triangle.sum(), (~is_triangle).sum())
+    assert quadrilaterals["shape"].min == quality.shape[~is_triangle].min()
+    assert quality.summary.triangles == is_triangle.sum() and quality.summary.quadrilaterals == (~is_triangle).sum()
+    with pytest.raises(KeyError, match="'radius_ratio' is no metric; valid are shape, .*taper"):
+        quadrilaterals["radius_ratio"]
+    assert "quadrilaterals" in repr(quality) and "quadrilaterals alone" in str(quality)
+    assert "element" in quality._repr_html_()
+
+
+def test_quadrilaterals_alone_have_no_metrics_of_triangles():
+    points, elements = mixed_mesh()
+    quality = trismooth.quality(points, elements[elements[:, 3] >= 0])
+    assert quality.summary.triangles == 0 and "radius_ratio" not in quality and "taper" in quality
+    assert "quadrilaterals" in quality._repr_html_() and "triangle" not in quality._repr_html_()
+    with pytest.raises(AttributeError, match="radius_ratio"):
+        quality.radius_ratio
+
+
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.uint32, np.uint64, np.int16])
+def test_four_vertex_numbers_of_every_type_are_the_same_elements(kind):
+    points, elements = mixed_mesh()
+    expected = trismooth.quality(points, elements).shape
+    np.testing.assert_array_equal(trismooth.quality(points, elements.astype(kind)).shape, expected)
+    np.testing.assert_array_equal(trismooth.quality(points, np.asfortranarray(elements.astype(kind))).shape, expected)
+
+
+def test_an_element_that_is_listed_again_counts_once_and_has_the_values_of_the_first():
+    points, elements = mixed_mesh()
+    again = np.vstack([elements, np.roll(elements[elements[:, 3] >= 0][:2], 1, axis=1)])
+    with pytest.warns(trismooth.MeshWarning, match="2 elements are listed again"):
+        quality = trismooth.quality(points, again)
+    once = trismooth.quality(points, elements)
+    assert quality.summary.quadrilaterals == once.summary.quadrilaterals
+    np.testing.assert_array_equal(quality.shape[: len(elements)], once.shape)
+    np.testing.assert_array_equal(quality.shape[len(elements) :], once.shape[elements[:, 3] >= 0][:2])
+
+
+def test_quadrilaterals_are_refused_where_they_are_not_smoothed():
+    points, elements = mixed_mesh()
+    before = points.copy()
+    with pytest.raises(ValueError, match=r"^triangles: shape \(\d+, 4\); expected \(M, 3\)"):
+        trismooth.smooth(points, elements)
+    np.testing.assert_array_equal(points, before)
+    with pytest.raises(trismooth.MeshError, match="^triangles: element 0 names vertex 999"):
+        trismooth.quality(points, [[0, 1, 2, 999]])
+    with pytest.raises(TypeError, match="^triangles: "):
+        trismooth.quality(points, elements.astype(float))

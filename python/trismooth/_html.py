@@ -85,7 +85,7 @@ def result_html(result: Result) -> str:
     time = _time_card(result)
     if before is None or after is None:
         body += ['<div class="note soft">The quality was not computed: pass quality=True.</div>', _cards([time])]
-    elif after.triangles > 0:
+    elif _elements(after) > 0:
         body += [_cards([*_quality_cards(before, after), time]), _histogram(before, after)]
     return _page(body)
 
@@ -102,10 +102,10 @@ def quality_html(report: QualityReport) -> str:
     str
         As :func:`result_html`.
     """
-    # Where triangles are inverted, the sentence about them says how many there are in all.
-    says_count = report.triangles > 0 and report.inverted == 0
-    body = [_lead(f"{report.triangles:,} triangle{_plural(report.triangles)}." if says_count else "", report)]
-    if report.triangles > 0:
+    # Where elements are inverted, the sentence about them says how many there are in all.
+    says_count = _elements(report) > 0 and report.inverted == 0
+    body = [_lead(f"{_counts(report)}." if says_count else "", report)]
+    if _elements(report) > 0:
         body += [_cards(_quality_cards(None, report)), _histogram(None, report)]
     return _page(body)
 
@@ -121,7 +121,7 @@ def _plural(count: int) -> str:
 
 def _outcome(result: Result, after: Optional[QualityReport]) -> str:
     """Return what happened, in a sentence; nothing of a mesh without triangles."""
-    if after is not None and after.triangles == 0:
+    if after is not None and _elements(after) == 0:
         return ""
     if result.moved == 0:
         why = {"quality_target": "The mesh has the target quality already", "time_limit": "There was no time for a sweep"}
@@ -153,16 +153,18 @@ def _lead(outcome: str, report: Optional[QualityReport]) -> str:
     """Return the first lines: what happened, and whether the triangles are valid, as far as that is known."""
     sentences = [outcome]
     if report is not None:
-        if report.triangles == 0:
+        name, count = _name_of_elements(report), _elements(report)
+        if count == 0:
             sentences.append("The mesh has no triangles.")
         elif report.inverted > 0:
-            verb = "is" if report.triangles == 1 else "are"
-            sentences.append(f"{report.inverted:,} of {report.triangles:,} triangles {verb} inverted.")
+            verb = "is" if count == 1 else "are"
+            sentences.append(f"{report.inverted:,} of {count:,} {name}s {verb} inverted.")
         else:
-            sentences.append("No triangle is inverted.")
+            sentences.append(f"No {name} is inverted.")
         if report.degenerate > 0:
-            subject = "1 triangle is" if report.degenerate == 1 else f"{report.degenerate:,} triangles are"
-            sentences.append(f"{subject} without area.")
+            subject = f"1 {name} is" if report.degenerate == 1 else f"{report.degenerate:,} {name}s are"
+            flat = "" if name == "triangle" else " or flat at a corner"
+            sentences.append(f"{subject} without area{flat}.")
     is_bad = report is not None and report.inverted + report.degenerate > 0
     text = escape(" ".join(sentence for sentence in sentences if sentence))
     return f'<div class="lead{" bad" if is_bad else ""}">{text}</div>'
@@ -180,17 +182,37 @@ def _card(label: str, value: str, detail: str, verdict: str = "") -> str:
     )
 
 
+def _elements(report: QualityReport) -> int:
+    return report.triangles + report.quadrilaterals
+
+
+def _name_of_elements(report: QualityReport) -> str:
+    if report.quadrilaterals == 0:
+        return "triangle"
+    return "quadrilateral" if report.triangles == 0 else "element"
+
+
+def _counts(report: QualityReport) -> str:
+    counts = {"triangle": report.triangles, "quadrilateral": report.quadrilaterals}
+    shown = {name: count for name, count in counts.items() if count > 0}
+    return " and ".join(f"{count:,} {name}{_plural(count)}" for name, count in shown.items())
+
+
 def _verdict_class(verdict: str) -> str:
     return {"better": "good", "worse": "bad"}.get(verdict, "soft")
 
 
 def _quality_cards(before: Optional[QualityReport], after: QualityReport) -> List[str]:
     acceptable = _percent(after["shape"].acceptable_fraction)
+    best = {"triangle": ("equilateral", "60° is equilateral"), "quadrilateral": ("a square", "90° is a rectangle")}.get(
+        _name_of_elements(after), ("equilateral or a square", "60° is equilateral, 90° a rectangle")
+    )
+    share = f"{acceptable} % of the {_name_of_elements(after)}s are acceptable"
     return [
-        _metric_card("Smallest shape", "shape", "min", before, after, "1 is equilateral, 0 degenerate"),
-        _metric_card("Mean shape", "shape", "mean", before, after, f"{acceptable} % of the triangles are acceptable"),
-        _metric_card("Smallest angle", "min_angle", "min", before, after, "60° is equilateral", "°"),
-        _metric_card("Largest angle", "max_angle", "max", before, after, "60° is equilateral", "°"),
+        _metric_card("Smallest shape", "shape", "min", before, after, f"1 is {best[0]}, 0 degenerate"),
+        _metric_card("Mean shape", "shape", "mean", before, after, share),
+        _metric_card("Smallest angle", "min_angle", "min", before, after, best[1], "°"),
+        _metric_card("Largest angle", "max_angle", "max", before, after, best[1], "°"),
         _inverted_card(before, after),
     ]
 
@@ -217,12 +239,13 @@ def _inverted_card(before: Optional[QualityReport], after: QualityReport) -> str
     degenerate = f"{after.degenerate:,}"
     if before is not None and before.degenerate != after.degenerate:
         degenerate = f"{before.degenerate:,} → {degenerate}"
-    detail = f"of {after.triangles:,}; {degenerate} degenerate"
+    label = f"Inverted {_name_of_elements(after)}s"
+    detail = f"of {_elements(after):,}; {degenerate} degenerate"
     now = f'<span class="{"bad" if after.inverted > 0 else "good"}">{after.inverted:,}</span>'
     if before is None:
-        return _card("Inverted triangles", now, detail)
+        return _card(label, now, detail)
     verdict = _verdict(before.inverted, after.inverted, larger_is_better=False)
-    return _card("Inverted triangles", f'<span class="from">{before.inverted:,} →</span> {now}', detail, verdict)
+    return _card(label, f'<span class="from">{before.inverted:,} →</span> {now}', detail, verdict)
 
 
 def _time_card(result: Result) -> str:
@@ -303,7 +326,7 @@ def _histogram(before: Optional[QualityReport], after: QualityReport) -> str:
         '<div class="title">Distribution of shape</div>\n'
         + (f'<div class="legend">{legend}</div>\n' if len(series) > 1 else "")
         + f'<svg width="100%" height="{_HEIGHT:g}" role="img" aria-label="Histogram of shape">\n'
-        + '<text x="-56" y="12">triangles, on a logarithmic scale</text>\n'
+        + f'<text x="-56" y="12">{_name_of_elements(after)}s, on a logarithmic scale</text>\n'
         + "\n".join(content)
         + "\n</svg>"
     )

@@ -12,53 +12,59 @@ from ._core import QualityReport
 from ._notes import warn_of
 from ._repeats import find_repeats
 
-#: The names of the metrics, as the attributes of Quality.
+#: The names of the metrics of triangles. Those of a mesh with quadrilaterals are Quality.keys().
 METRICS: Tuple[str, ...] = tuple(name for name, *_ in _core.metrics())
 
 
 class Quality:
-    """The value of each metric for every triangle, and what they come to.
+    """The value of each metric for every element, and what they come to.
 
     Attributes
     ----------
     summary : QualityReport
-        Ranges, means, histogram of shape, worst elements. ``print(quality)`` shows it.
+        Ranges, means, histogram of shape, worst elements; of meshes with quadrilaterals also of each kind
+        (``summary.kinds``). ``print(quality)`` shows it.
     shape, area, min_angle, max_angle, aspect_ratio, radius_ratio, edge_ratio, condition, scaled_jacobian, equiangle_skew
         : numpy.ndarray of float64, shape (M,)
         The metrics by Verdict's names and definitions; ``quality["shape"]`` is the same. Angles are in degrees, areas in
         the square of the points' unit. shape, area, scaled_jacobian and condition are negative for inverted triangles:
         those against the majority of their component. Values of triangles without area may be infinite, never NaN.
+    skew, taper : numpy.ndarray of float64, shape (M,)
+        Of meshes with quadrilaterals, which have no radius_ratio: NaN for triangles, as radius_ratio is for
+        quadrilaterals.
     """
 
     __slots__ = ("summary", "_values")
 
-    def __init__(self, summary: QualityReport, values: List[np.ndarray]) -> None:
+    def __init__(self, summary: QualityReport, values: Dict[str, np.ndarray]) -> None:
         self.summary = summary
-        self._values: Dict[str, np.ndarray] = dict(zip(METRICS, values))
+        self._values = values
 
     def __getattr__(self, name: str) -> np.ndarray:
-        if name in METRICS:
+        if name.startswith("_"):  # of a Quality that is being made
+            raise AttributeError(name)
+        if name in self._values:
             return self._values[name]
-        raise AttributeError(f"'{name}' is no metric; there are {', '.join(METRICS)}")
+        raise AttributeError(f"'{name}' is no metric; there are {', '.join(self._values)}")
 
     def __getitem__(self, name: str) -> np.ndarray:
         try:
             return self._values[name]
         except KeyError:
-            raise KeyError(f"'{name}' is no metric; there are {', '.join(METRICS)}") from None
+            raise KeyError(f"'{name}' is no metric; there are {', '.join(self._values)}") from None
 
     def __iter__(self) -> Iterator[str]:
-        return iter(METRICS)
+        return iter(self._values)
 
     def __len__(self) -> int:
-        return len(METRICS)
+        return len(self._values)
 
     def keys(self) -> Tuple[str, ...]:
-        """The names of the metrics."""
-        return METRICS
+        """The names of the metrics that elements of the mesh have."""
+        return tuple(self._values)
 
     def __dir__(self) -> List[str]:
-        return sorted([*METRICS, "summary", "keys"])
+        return sorted([*self._values, "summary", "keys"])
 
     def __str__(self) -> str:
         return str(self.summary)
@@ -71,14 +77,16 @@ class Quality:
 
 
 def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
-    """The quality of every triangle of a planar mesh, by ten metrics.
+    """The quality of every triangle, and quadrilateral, of a planar mesh.
 
     Parameters
     ----------
     points : array of float64 or float32, shape (N, 2) or (N, 3); or a mesh as for :func:`trismooth.smooth`
-    triangles : array of integers, shape (M, 3) or (M, 6)
+    triangles : array of integers, shape (M, 3), (M, 4) or (M, 6)
         In either direction: what the majority of a component's triangles is counts as positive. Of triangles of six
-        nodes the corners count. One that is listed again has the values of the first and counts once.
+        nodes the corners count. With four numbers of each, corners in turn, quadrilaterals are among them; the last of
+        a triangle is -1. An element that is listed again has the values of the first and counts once. Of a mesh of
+        another package the triangles alone count.
     threads : int
         0: all. The result does not depend on it.
 
@@ -90,7 +98,7 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
     Warns
     -----
     MeshWarning
-        Of triangles that are listed again.
+        Of elements that are listed again.
 
     Raises
     ------
@@ -111,4 +119,5 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
         return Quality(*_core.quality(numbers, corners, threads))
     report, values = _core.quality(numbers, repeats.triangles(), threads)
     warn_of(repeats.notes)
-    return Quality(_core.renumbered(report, repeats.kept), [of_kept[repeats.place] for of_kept in values])
+    of_all = {name: of_kept[repeats.place] for name, of_kept in values.items()}
+    return Quality(_core.renumbered(report, repeats.kept), of_all)

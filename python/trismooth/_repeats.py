@@ -33,8 +33,9 @@ class Repeats:
         self.place = np.cumsum(is_kept) - 1
         self.place[self._copies] = self.place[self._firsts]
         count = len(pairs)
+        name = "element" if triangles.shape[1] == 4 else "triangle"
         self.notes = [
-            f"{count} triangle{' is' if count == 1 else 's are'} listed again (the first is {self._copies[0]}, which has "
+            f"{count} {name}{' is' if count == 1 else 's are'} listed again (the first is {self._copies[0]}, which has "
             f"the corners of {self._firsts[0]}): {'it is' if count == 1 else 'each is'} counted and smoothed once, as it "
             "is listed first"
         ]
@@ -113,5 +114,16 @@ class Repeats:
 
 def find_repeats(triangles: np.ndarray, n_points: int) -> Optional[Repeats]:
     """The triangles that have the corners of one before them; None where there are none, or no valid triangles."""
-    pairs = _core.repeated_triangles(triangles, n_points)
+    has_four = triangles.ndim == 2 and triangles.shape[1] == 4
+    pairs = _repeated_elements(triangles) if has_four else _core.repeated_triangles(triangles, n_points)
     return Repeats(triangles, pairs) if len(pairs) > 0 else None
+
+
+def _repeated_elements(elements: np.ndarray) -> np.ndarray:
+    """What _core.repeated_triangles() answers, where quadrilaterals may be among the elements."""
+    if elements.dtype.kind not in "iu":
+        return np.empty((0, 2), dtype=np.int64)  # It is refused later.
+    _, first, which = np.unique(np.sort(elements, axis=1), axis=0, return_index=True, return_inverse=True)
+    firsts = first[which.reshape(-1)]
+    copies = np.flatnonzero(firsts != np.arange(len(elements)))
+    return np.column_stack([copies, firsts[copies]])
