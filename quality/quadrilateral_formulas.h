@@ -65,7 +65,7 @@ inline KindValues<QuadrilateralPoints> evaluate_all(const QuadrilateralPoints& c
   const double least = smallest(smallest(at_a.angle, at_b.angle), smallest(at_c.angle, at_d.angle));
   const double most = largest(largest(at_a.angle, at_b.angle), largest(at_c.angle, at_d.angle));
   const double min_angle = has_angles ? least : 0;
-  const double max_angle = has_angles | (most > 180) ? most : 180;
+  const double max_angle = (has_angles | (most > 180)) ? most : 180;
   const double quality = shape(a, b, c, d);
   const double jacobian = smallest(smallest(at_a.jacobian, at_b.jacobian), smallest(at_c.jacobian, at_d.jacobian));
   const double deviation = largest((max_angle - 90) / 90, (90 - min_angle) / 90);

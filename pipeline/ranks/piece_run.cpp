@@ -65,6 +65,10 @@ constexpr std::string_view is_alone = "the only rank";
 struct NeedsWholeMesh {
   std::string reason;
 };
+[[noreturn]] void need_whole_mesh(std::string reason) {
+  // No error, which nobody takes it for: run_pieces() goes on from it.
+  throw NeedsWholeMesh{std::move(reason)};  // NOLINT(bugprone-std-exception-baseclass)
+}
 
 /// A mesh of which each rank has pieces. Throws NeedsWholeMesh, on all ranks, where that is not enough.
 class PieceMesh final : public StagedMesh {
@@ -84,20 +88,20 @@ class PieceMesh final : public StagedMesh {
       read_one_file();
     }
     if (const std::string_view option = what_needs_whole_mesh(run_.options); !option.empty()) {
-      throw NeedsWholeMesh{std::string(option)};
+      need_whole_mesh(std::string(option));
     }
     if (ranks_->size() == 1 && are_numbered_without_gaps(files_)) {
-      throw NeedsWholeMesh{std::string(is_alone)};
+      need_whole_mesh(std::string(is_alone));
     }
     if (const std::string_view kind = what_is_not_joined(files_, *ranks_); !kind.empty()) {
-      throw NeedsWholeMesh{std::string(kind)};
+      need_whole_mesh(std::string(kind));
     }
     if (run_.options.output && run_.options.fields != Fields::keep && !arrays_of_places_.empty()) {
-      throw NeedsWholeMesh{"the values of '" + arrays_of_places_.front() + "', which follow the mesh"};
+      need_whole_mesh("the values of '" + arrays_of_places_.front() + "', which follow the mesh");
     }
     if (run_.options.fixed_sets.empty()) {
       if (const std::string markers = unjudged_markers(files_, *ranks_); !markers.empty()) {
-        throw NeedsWholeMesh{"what " + markers + " marks"};
+        need_whole_mesh("what " + markers + " marks");
       }
     }
   }
@@ -109,7 +113,7 @@ class PieceMesh final : public StagedMesh {
     constraints_ = find_rank_constraints(files_, mesh_, run_.options, *ranks_);
     topology_.emplace(mesh_, constraints_.named, owners(), run_.options.input, ranks_, run_.workers);
     if (has_repeated_triangles(*topology_, run_.workers)) {
-      throw NeedsWholeMesh{"triangles that are listed again"};
+      need_whole_mesh("triangles that are listed again");
     }
     regions_ = find_rank_regions(files_, *topology_, run_.options.region_arrays);
     held_ = topology_->held(regions_.of_triangle, run_.workers);
@@ -130,7 +134,7 @@ class PieceMesh final : public StagedMesh {
     QualityReport& report = quality.report;
     if (!run_.result.smoothing && run_.options.output && run_.options.smoothing.untangles() &&
         report.inverted + report.degenerate > 0) {
-      throw NeedsWholeMesh{"the untangling of inverted triangles"};
+      need_whole_mesh("the untangling of inverted triangles");
     }
     report.degenerate += cells_.repeating;
     std::vector<std::int64_t> cells;
@@ -312,7 +316,7 @@ class PieceMesh final : public StagedMesh {
                           .layers = layers_,
                           .regions = regions_};
     if (are_apart(facts)) {
-      throw NeedsWholeMesh{"triangles that are all apart"};
+      need_whole_mesh("triangles that are all apart");
     }
     summarise_mesh(run_, facts);
   }
@@ -417,7 +421,7 @@ PipelineResult run_in_pieces(const PipelineOptions& asked, FileReading reading,
                                                                        : what_needs_whole_mesh(options);
     if (!reason.empty()) {
       stages.begin(Stage::read);
-      throw NeedsWholeMesh{std::string(reason)};
+      need_whole_mesh(std::string(reason));
     }
     stages.read();
     stages.check_and_smooth();

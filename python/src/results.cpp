@@ -132,7 +132,7 @@ void bind_quality(nb::module_& module) {
       "The quality of the triangles of a mesh, or of its quadrilaterals.\n\n`of_kind['shape']` is the "
       "MetricSummary of a metric.")
       .def_prop_ro(
-          "kind", [](const KindQuality& of_kind) { return name_of(of_kind.kind); }, "\"triangle\", \"quadrilateral\".")
+          "kind", [](const KindQuality& of_kind) { return name_of(of_kind.kind); }, R"("triangle" or "quadrilateral".)")
       .def_ro("elements", &KindQuality::elements, "How many there are.")
       .def_ro("inverted", &KindQuality::inverted, "Those of shape < 0.")
       .def_ro("degenerate", &KindQuality::degenerate, "Those whose shape is 0.")

@@ -126,8 +126,8 @@ TEST_CASE("all metrics of triangles worked out by hand") {
     Corners corners;
     MetricValues expected;
   };
-  const double root3 = std::sqrt(3.0);
-  const double root2 = std::sqrt(2.0);
+  const double root3 = std::numbers::sqrt3;
+  const double root2 = std::numbers::sqrt2;
   const std::array cases{
       Case{"equilateral of side 2", {{0, 0}, {2, 0}, {1, root3}}, {1, root3, 60, 60, 1, 1, 1, 1, 1, 0}},
       // inradius 1 - 1 / sqrt(2), circumradius 1 / sqrt(2)
@@ -313,7 +313,7 @@ TEST_CASE("acceptable is what Verdict's manual says, open at the ideal end, and 
                              {Metric::radius_ratio, 1, 3},
                              {Metric::edge_ratio, 1, 1.3},
                              {Metric::condition, 1, 1.3},
-                             {Metric::scaled_jacobian, 0.5, 2 / std::sqrt(3.0)},
+                             {Metric::scaled_jacobian, 0.5, 2 / std::numbers::sqrt3},
                              {Metric::equiangle_skew, 0, 0.5}}) {
     const MetricInfo& metric = info(range.metric);
     CAPTURE(std::string(metric.name));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -141,9 +142,7 @@ TEST_CASE("the worst elements are those that sorting finds, with their centroids
   for (std::size_t i = 0; i < order.size(); ++i) {
     order[i] = static_cast<std::int64_t>(i);
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::int64_t a, std::int64_t b) {
-    return shapes[static_cast<std::size_t>(a)] < shapes[static_cast<std::size_t>(b)];
-  });
+  std::ranges::sort(order, {}, [&](std::int64_t t) { return std::pair(shapes[static_cast<std::size_t>(t)], t); });
   for (const int worst_count : {0, 1, 10, 3000, 100000}) {
     const QualityReport report = quality_report(mesh.view(), {2, worst_count});
     REQUIRE(report.worst.size() == std::min<std::size_t>(static_cast<std::size_t>(worst_count), 5000));
@@ -218,7 +217,7 @@ TEST_CASE("areas come in units of the file") {
     mesh.exponent = 1000;
     const QualityReport report = quality_report(mesh.view());
     CHECK(report[Metric::area].mean == std::numeric_limits<double>::infinity());
-    CHECK(report[Metric::shape].mean == Approx(std::sqrt(3.0) / 2));
+    CHECK(report[Metric::shape].mean == Approx(std::numbers::sqrt3 / 2));
   }
 }
 
@@ -247,7 +246,7 @@ TEST_CASE("the spread around a large mean loses no digits") {
 
 TEST_CASE("shape 1 counts in the last bin, shape 0 in the first, inverted triangles in none") {
   Mesh mesh;
-  mesh.points = {{0, 0}, {1, 0}, {0.5, std::sqrt(3.0) / 2}, {2, 0}};
+  mesh.points = {{0, 0}, {1, 0}, {0.5, std::numbers::sqrt3 / 2}, {2, 0}};
   SECTION("equilateral") {
     mesh.triangles = {{0, 1, 2}};
     CHECK(quality_report(mesh.view()).shape_histogram.back() == 1);
