@@ -125,7 +125,7 @@ class DelaunayMesh final : public TestMesh {
 
  private:
   static double quotient(const std::vector<Point2<double>>& points, std::int32_t a, std::int32_t b, std::int32_t c) {
-    return shape_quotient(points_of(canonical_corners({a, b, c}, false), points));
+    return shape_quotient(points_of(canonical_corners(Triangle{a, b, c}, false), points));
   }
   static std::uint64_t hash(const std::vector<Point2<double>>& points) {
     std::vector<double> xyz;
