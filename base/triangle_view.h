@@ -18,12 +18,11 @@ using Triangle = std::array<std::int32_t, 3>;
 using MixedElement = std::array<std::int32_t, 4>;
 inline constexpr std::int32_t no_corner = -1;
 
-/// How many corners there are.
-constexpr int corner_count(const Triangle& /*triangle*/) {
-  return 3;
-}
-constexpr int corner_count(const MixedElement& element) {
-  return element[3] == no_corner ? 3 : 4;
+/// How many corners a Triangle or a MixedElement has.
+template <std::size_t most>
+constexpr int corner_count(const std::array<std::int32_t, most>& element) {
+  static_assert(most == 3 || most == 4);
+  return element[most - 1] == no_corner ? 3 : static_cast<int>(most);
 }
 
 /// The elements of one mesh for evaluation, or those of one kind: triangles, or quadrilaterals. All views; the caller
@@ -52,8 +51,11 @@ constexpr Triangle canonical_corners(const Triangle& triangle, bool reversed) {
   return {c_first ? c : (b_first ? b : a), c_first ? a : (b_first ? c : b), c_first ? b : (b_first ? a : c)};
 }
 
-/// Those of a triangle or a quadrilateral.
-constexpr MixedElement canonical_corners(const MixedElement& element, bool reversed) {
+/// Those of a MixedElement.
+template <std::size_t most>
+constexpr std::array<std::int32_t, most> canonical_corners(const std::array<std::int32_t, most>& element,
+                                                           bool reversed) {
+  static_assert(most == 4);
   if (element[3] == no_corner) {
     const Triangle corners = canonical_corners(Triangle{element[0], element[1], element[2]}, reversed);
     return {corners[0], corners[1], corners[2], no_corner};
