@@ -217,6 +217,53 @@ def test_what_does_not_fit_is_refused(arguments, error, message):
         trismooth.MovingMesh(points, triangles, **arguments)
 
 
+def test_layers_are_said_in_the_first_step_alone_also_as_errors():
+    x, y = np.meshgrid(np.linspace(0, 40, 41), np.cumsum([0, *(0.02 * 1.3 ** np.arange(20))]))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    first = (np.arange(20)[:, None] * 41 + np.arange(40)).ravel()
+    triangles = np.concatenate([np.column_stack([first, first + 1, first + 42]), np.column_stack([first, first + 42, first + 41])])
+    mesh = trismooth.MovingMesh(points, triangles)
+    with pytest.warns(trismooth.MeshWarning, match="layers .* are carried along and not smoothed"):
+        mesh.follow(points)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", trismooth.MeshWarning)
+        mesh.follow(points)
+        mesh = trismooth.MovingMesh(points, triangles)
+        with pytest.raises(trismooth.MeshWarning, match="layers"):
+            mesh.follow(points)
+        assert mesh.follow(points).valid
+
+
+def test_a_limit_of_time_is_no_fault_of_the_boundary():
+    points, triangles, of_rotor = rotor()
+    now = points.copy()
+    now[of_rotor] = turned(points[of_rotor], 20)
+    mesh = trismooth.MovingMesh(points, triangles, time_limit=0.0)
+    with pytest.warns(trismooth.MeshWarning, match="the time was up before the first sweep"):
+        result = mesh.follow(now)
+    assert result.inverted == -1 and not any("boundary leaves them no room" in note for note in result.notes)
+    np.testing.assert_array_equal(mesh.points, points)
+    # As soon as it makes a sweep, or none is needed, what it says is of the time.
+    for limit in (1e-4, 3e-4, 1e-3, 3e-3, 1e-2):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", trismooth.MeshWarning)
+            result = trismooth.MovingMesh(points, triangles, time_limit=limit).follow(now)
+        ended = result.stop_reason == "time_limit"
+        assert ended == any("time" in note for note in result.notes)
+        assert not ended or not any("the boundary leaves" in note for note in result.notes)
+
+
+def test_what_makes_a_result_invalid_is_in_its_text():
+    points, triangles = grid(6, 6, shift=0)
+    mesh = trismooth.MovingMesh(points, triangles)
+    now = points.copy()
+    now[mesh.held] = now[mesh.held][:, [1, 0]]  # mirrored
+    with pytest.warns(trismooth.MeshWarning):
+        result = mesh.follow(now)
+    assert not result.valid
+    assert any(word in repr(result) for word in ("inverted or degenerate", "crossings of the boundary", "lies over itself"))
+
+
 def test_a_device_that_is_not_there_is_told():
     if "device 0" in str(trismooth.build_info()["devices"]):
         pytest.skip("there is one: test_device.py has meshes follow on it")

@@ -12,7 +12,7 @@ from ._constraints import Constraints
 from ._notes import options_without_effect, warn_of
 from ._plan import OnHost
 from ._result import NOT_MENDED as _NOT_MENDED
-from ._result import Result, notes_of
+from ._result import Result, layers_notes, notes_of
 from ._smooth import Progress
 
 _MOST_LISTED = 1000
@@ -20,6 +20,7 @@ _NO_ROOM = (
     "the boundary leaves them no room, or layers that are kept do not; take_back() and a smaller step, layers='smooth' or "
     "another boundary is the way out"
 )
+_NO_TIME = "the time was up before they were mended; take_back() and a larger time_limit, or a smaller step, is the way out"
 
 
 def _following(outcome: _core.Outcome) -> dict[str, Any]:
@@ -28,11 +29,17 @@ def _following(outcome: _core.Outcome) -> dict[str, Any]:
     return found
 
 
-def _notes_of_following(outcome: _core.Outcome) -> List[str]:
+def _notes_of_following(outcome: _core.Outcome, says_layers: bool) -> List[str]:
     # What is kept of layers is kept where it is carried to; what is not mended has another way out.
+    of_layers = layers_notes(outcome)
+    no_room = _NO_TIME if outcome.stop_reason == "time_limit" else _NO_ROOM
+    carried = "so vertices are where they were carried" if outcome.inverted >= 0 else "so no vertex has moved"
     notes = [
-        note.replace("are held: ", "are carried along and not smoothed: ").replace(_NOT_MENDED, _NO_ROOM)
+        note.replace("are held: ", "are carried along and not smoothed: ")
+        .replace(_NOT_MENDED, no_room)
+        .replace("so no sweep has moved anything", carried)
         for note in notes_of(outcome)
+        if says_layers or note not in of_layers
     ]
     folded = 0 if outcome.following is None else outcome.following["invalid_held"]
     if folded > 0:
@@ -43,6 +50,11 @@ def _notes_of_following(outcome: _core.Outcome) -> List[str]:
         )
     if outcome.stop_reason == "sweep_limit":
         notes.append("the sweeps ended at max_sweeps, and the mesh is still on its way: a larger number lets it arrive")
+    if outcome.stop_reason == "time_limit" and outcome.sweeps > 0:
+        notes.append(
+            "the sweeps ended at time_limit, and the mesh is still on its way: where it is then is not the same every time; "
+            "more time lets it arrive"
+        )
     crossings = [] if outcome.following is None else outcome.following["crossings"]
     if crossings:
         (a, b), (c, d) = crossings[0]
@@ -119,6 +131,8 @@ class FollowResult(Result):
         text = super().__repr__().replace("trismooth.Result", "trismooth.FollowResult")
         invalid = self.inverted + self.degenerate
         found = "" if invalid == 0 else f", {invalid:,} inverted or degenerate" if invalid > 0 else ", nothing is known"
+        for count, what in ((self.crossings, "crossings of the boundary"), (self.overlaps, "vertices where it lies over itself")):
+            found += f", {_count_of(count)} {what}" if count else ""
         return f"{text[:-1]}{found}, smallest relative shape {self.min_relative_shape:.4g}>"
 
 
@@ -194,6 +208,7 @@ class MovingMesh:
                 triangles, count, constraints, lambda corners, held: _core.HostMovingMesh(reference, corners, held, options)
             )
         self._moving = self._mesh.made
+        self._has_said_layers = False
         self._notes = [*self._mesh.notes, *options_without_effect({"method": "mean-ratio", "slide": "off", **options}, None)]
         if options.get("method", "mean-ratio") != "mean-ratio":
             self._notes.append(
@@ -260,14 +275,15 @@ class MovingMesh:
         -----
         MeshWarning
             Where triangles of the result are inverted or degenerate, where the boundary has folded, or crosses or touches
-            itself, and where the mesh lies over itself. Made an error by a filter, or interrupted, the call has not
+            itself, where the mesh lies over itself, and where sweeps ended at ``max_sweeps`` or ``time_limit``; in the
+            first step of a mesh also what its layers are. Made an error by a filter, or interrupted, the call has not
             happened: no array has changed, nor :attr:`points`.
         """
         if not isinstance(start, str):
             raise TypeError(f"start: 'reference' or 'previous' is needed, not {start!r}")
         wanted = _arrays.wants_quality(quality, False)
         if self._on_device is not None:
-            made = self._on_device.follow(points, out, start, wanted, progress, _notes_of_following)
+            made = self._on_device.follow(points, out, start, wanted, progress, self._notes_of)
         elif _arrays.device_of(points) is not None:
             raise ValueError(
                 f"points: are on cuda:{_arrays.device_of(points)}, and the mesh was made of points in memory of the host"
@@ -277,11 +293,18 @@ class MovingMesh:
                 points,
                 out,
                 lambda given, into, accept: self._moving.follow(given, into, start, wanted, progress, accept),
-                _notes_of_following,
+                self._notes_of,
             )
         result = FollowResult(*made)
         result.notes += self._notes
         return result
+
+    def _notes_of(self, outcome: _core.Outcome) -> List[str]:
+        # What the layers of the reference are is said once, also where a filter makes an error of it: a step that was
+        # given up for that would be given up for ever.
+        notes = _notes_of_following(outcome, not self._has_said_layers)
+        self._has_said_layers = True
+        return notes
 
     def take_back(self) -> None:
         """Has the last step not have happened, as where a solver repeats a time step with a smaller one: :attr:`points` are
