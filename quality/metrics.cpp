@@ -41,7 +41,7 @@ constexpr std::array<MetricInfo, count_of_metrics<QuadrilateralPoints>> quadrila
     {Metric::shape, "shape", "", true, 0.3, 1, -1, 1,
      "worst corner by its sides and angle: 1 square, 0 degenerate, negative not convex"},
     {Metric::area, "area", "length^2", true, 0, std::numeric_limits<double>::max(), -infinity, infinity,
-     "area, negative where inverted"},
+     "area, negative where clockwise"},
     {Metric::min_angle, "min_angle", "degrees", true, 45, 90, 0, 90, "smallest interior angle"},
     {Metric::max_angle, "max_angle", "degrees", false, 90, 135, 90, 360, "largest interior angle"},
     {Metric::aspect_ratio, "aspect_ratio", "", false, 1, 1.3, 1, infinity,

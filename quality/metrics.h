@@ -19,8 +19,8 @@ enum class ElementKind : std::uint8_t { triangle, quadrilateral };
 /// The quality metrics of an element, by their Verdict names and definitions (C. D. Stimpson, C. D. Ernst, P. Knupp,
 /// P. P. Pebay and D. Thompson, The Verdict Geometric Quality Library, SAND2007-1751). In the formulas of triangles
 /// l_min, l_mid and l_max are the lengths of the edges and A is the area. Where Verdict's value would not tell a valid
-/// element from an inverted one (a triangle that is clockwise, a quadrilateral that is not strictly convex or is
-/// clockwise: shape < 0), it is given a sign here: shape, scaled_jacobian and condition are negative for inverted
+/// element from an inverted one (a triangle that is clockwise, a quadrilateral that is or has a corner that points
+/// inwards: shape < 0), it is given a sign here: shape, scaled_jacobian and condition are negative for inverted
 /// elements, area for clockwise ones. The others are the same for both.
 ///
 /// Of quadrilaterals: a and b are the sides that leave a corner, cross(a, b) is positive where it turns to the left,
@@ -48,8 +48,8 @@ enum class Metric : std::uint8_t {
   scaled_jacobian,  ///< 4 A / (sqrt(3) l_mid l_max), signed: the sine of the smallest angle over that of 60 degrees
   equiangle_skew,   ///< max((max_angle - 60) / 120, (60 - min_angle) / 60), not below 0
   skew,             ///< |cos| of the angle between the lines through the middles of opposite sides, 0 for a rectangle
-  taper,            ///< how far opposite sides are from parallel and equal: |d| over the shorter of these two lines,
-                    ///< d twice the vector between the middles of the diagonals; 0 for a parallelogram
+  taper,            ///< how far opposite sides are from parallel and equal: the distance between the middles of the
+                    ///< diagonals over the length of the shorter of these two lines; 0 for a parallelogram
 };
 
 /// How many metrics there are.

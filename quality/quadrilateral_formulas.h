@@ -69,7 +69,7 @@ inline KindValues<QuadrilateralPoints> evaluate_all(const QuadrilateralPoints& c
   const double quality = shape(a, b, c, d);
   const double jacobian = smallest(smallest(at_a.jacobian, at_b.jacobian), smallest(at_c.jacobian, at_d.jacobian));
   const double deviation = largest((max_angle - 90) / 90, (90 - min_angle) / 90);
-  // Twice the lines through the middles of opposite sides, and twice that through the middles of the diagonals.
+  // Twice the lines through the middles of opposite sides, and twice that between the middles of the diagonals.
   const Point2<double> along = ab - cd;
   const Point2<double> across = bc - da;
   const Point2<double> between{(a.x - b.x) + (c.x - d.x), (a.y - b.y) + (c.y - d.y)};

@@ -25,7 +25,8 @@ namespace trismooth {
 ///
 /// Where `triangles` has four numbers of each, quadrilaterals are among them (see IndexView): they are oriented
 /// together with the triangles that they share edges with, a quadrilateral is positive where its area is, and inverted
-/// where it is not strictly convex then. The report is of all elements, and QualityReport::kinds of each kind.
+/// where a corner of it points inwards then, degenerate where one is flat. The report is of all elements, and
+/// QualityReport::kinds of each kind.
 ///
 /// Throws MeshError for triangles that are no mesh (an index out of range, a triangle that repeats a vertex, a
 /// component that cannot be oriented), for a coordinate that is not finite and for heights that differ;

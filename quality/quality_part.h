@@ -71,7 +71,7 @@ bool is_worse(const WorstElement& a, const WorstElement& b);
 
 /// The report of triangles that contribute `total`, in a local frame of that exponent.
 QualityReport report_of(const QualityPart& total, std::vector<WorstElement> worst, int exponent);
-/// The report of a mesh with triangles and quadrilaterals, of which there is one at least.
+/// The report of a mesh with triangles and quadrilaterals.
 QualityReport report_of(const QualityPart& triangles, const KindPart<QuadrilateralPoints>& quadrilaterals,
                         std::vector<WorstElement> worst, int exponent);
 

@@ -306,8 +306,10 @@ QualityReport report_of(const QualityPart& triangles, const KindPart<Quadrilater
   append(triangles, all);
   append(quadrilaterals, all);
   report.metrics = summaries(all, exponent);
-  add_kind(triangles, exponent, report);
-  add_kind(quadrilaterals, exponent, report);
+  if (quadrilaterals.count > 0) {
+    add_kind(triangles, exponent, report);
+    add_kind(quadrilaterals, exponent, report);
+  }
   report.worst = std::move(worst);
   return report;
 }

@@ -51,8 +51,8 @@ struct KindQuality {
 struct QualityReport {
   std::int64_t triangles = 0;
   std::int64_t quadrilaterals = 0;
-  std::int64_t inverted = 0;                          ///< elements of shape < 0
-  std::int64_t degenerate = 0;                        ///< elements whose shape is neither above nor below 0: no area
+  std::int64_t inverted = 0;    ///< elements of shape < 0
+  std::int64_t degenerate = 0;  ///< elements whose shape is neither above nor below 0: no area, or a flat corner
   std::array<MetricSummary, metric_count> metrics{};  ///< indexed by Metric, over the elements that have it; area in
                                                       ///< units of the file
   /// The same of triangles alone and of quadrilaterals alone, whichever there are; empty where all are triangles.

@@ -263,9 +263,16 @@ TriangleArray::TriangleArray(const HostArray& array, bool may_have_quadrilateral
     return numbers == 3 || numbers == 6 || (numbers == 4 && may_have_quadrilaterals);
   };
   if (array.dimensions() != 2 || !is_taken(array.extent(1))) {
-    array.raise_value("shape " + array.shape_text() + "; expected (M, 3)" +
-                      (may_have_quadrilaterals ? ", (M, 4) with quadrilaterals," : ",") +
-                      " or (M, 6) for triangles of six nodes" + transposed(array, "triangles", 3));
+    array.raise_value(
+        "shape " + array.shape_text() + "; expected (M, 3)" +
+        (may_have_quadrilaterals ? ", (M, 4) with quadrilaterals," : ",") + " or (M, 6) for triangles of six nodes" +
+        transposed(array, "triangles", 3) +
+        (array.dimensions() == 2 && array.extent(1) == 4
+             ? "; quadrilaterals are judged by quality(), and not smoothed: other_cells holds their vertices"
+             : ""));
+  }
+  if (array.extent(1) == 4 && array.kind() == 'u' && array.item_size() < sizeof(std::uint32_t)) {
+    array.raise_type("unsigned integers of 8 or 16 bits have no -1, which the last one of a triangle is: int32 has");
   }
   size_ = array.extent(0);
   nodes_ = array.extent(1);

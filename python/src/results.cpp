@@ -152,7 +152,8 @@ void bind_quality(nb::module_& module) {
       .def_ro("kinds", &QualityReport::kinds,
               "A KindQuality of the triangles and one of the quadrilaterals; empty where all are triangles.")
       .def_ro("inverted", &QualityReport::inverted, "Those of shape < 0.")
-      .def_ro("degenerate", &QualityReport::degenerate, "Those without area.")
+      .def_ro("degenerate", &QualityReport::degenerate,
+              "Those whose shape is 0: without area, or quadrilaterals with a flat corner.")
       .def_ro("histogram", &QualityReport::shape_histogram,
               "20 counts of elements by their shape, from 0 to 1; inverted ones are in none.")
       .def_ro("worst", &QualityReport::worst, "The elements of smallest shape, the worst first; 10 at most.")

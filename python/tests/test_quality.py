@@ -142,7 +142,7 @@ def test_four_vertex_numbers_of_every_type_are_the_same_elements(kind):
 def test_an_element_that_is_listed_again_counts_once_and_has_the_values_of_the_first():
     points, elements = mixed_mesh()
     again = np.vstack([elements, np.roll(elements[elements[:, 3] >= 0][:2], 1, axis=1)])
-    with pytest.warns(trismooth.MeshWarning, match="2 elements are listed again"):
+    with pytest.warns(trismooth.MeshWarning, match="2 elements are listed again .*: each is counted once"):
         quality = trismooth.quality(points, again)
     once = trismooth.quality(points, elements)
     assert quality.summary.quadrilaterals == once.summary.quadrilaterals
@@ -160,3 +160,39 @@ def test_quadrilaterals_are_refused_where_they_are_not_smoothed():
         trismooth.quality(points, [[0, 1, 2, 999]])
     with pytest.raises(TypeError, match="^triangles: "):
         trismooth.quality(points, elements.astype(float))
+
+
+def test_other_quadrilaterals_of_the_same_corners_are_no_copies():
+    points = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    quality = trismooth.quality(points, [[0, 1, 2, 3], [0, 2, 1, 3]])
+    np.testing.assert_array_equal(quality.area, [1, 0])
+    assert quality.summary.quadrilaterals == 2 and quality.summary.inverted == 1
+    with pytest.warns(trismooth.MeshWarning, match="2 elements are listed again"):
+        quality = trismooth.quality(points, [[0, 1, 2, 3], [2, 3, 0, 1], [1, 0, 3, 2]])
+    assert quality.summary.quadrilaterals == 1
+
+
+@pytest.mark.parametrize("last", [[0, 1, -1, 2], [-1, 0, 1, 2], [0, 1, 2, 99], [0, 1, 2, 2]])
+def test_an_element_that_is_none_is_told_by_its_number_beside_copies_of_others(last):
+    with pytest.raises(trismooth.MeshError, match="^triangles: element 2 "):
+        trismooth.quality([[0, 0], [1, 0], [1, 1]], [[0, 1, 2, -1], [0, 1, 2, -1], last])
+
+
+def test_triangles_given_by_four_numbers_are_triangles_alone():
+    points, elements = mixed_mesh()
+    triangles = elements[elements[:, 3] < 0]
+    quality = trismooth.quality(points, triangles)
+    assert quality.summary.kinds == [] and set(quality) == set(trismooth.METRICS)
+    assert repr(quality.summary) == repr(trismooth.quality(points, triangles[:, :3]).summary)
+
+
+def test_shapes_of_arrays_that_are_taken_are_named():
+    points, elements = mixed_mesh()
+    with pytest.raises(ValueError, match=r"^triangles: shape .*expected \(M, 3\), \(M, 4\) with quadrilaterals, or"):
+        trismooth.quality(points, elements[:, [0, 1, 2, 3, 3]])
+    with pytest.raises(TypeError, match="^triangles: .*no -1"):
+        trismooth.quality(points, elements.astype(np.uint16))
+    for make in (lambda of: trismooth.smooth(points, of), lambda of: trismooth.Plan(of, len(points))):
+        for given in (elements, np.vstack([elements, elements[:1]])):
+            with pytest.raises(ValueError, match="^triangles: .*quadrilaterals are judged by .*other_cells"):
+                make(given)

@@ -364,7 +364,7 @@ def _shape_axis(any_inverted: bool) -> List[str]:
         f'<text x="{100 * place:.3f}%" y="{_BOTTOM + 17:.1f}" text-anchor="middle">{label}</text>'
         for place, label in places
     ]
-    title = f'<text x="50%" y="{_HEIGHT - 6:.1f}" text-anchor="middle">shape (1 = equilateral)</text>'
+    title = f'<text x="50%" y="{_HEIGHT - 6:.1f}" text-anchor="middle">shape (1 is the best)</text>'
     return [*labels, title]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from . import _arrays, _core
 from ._core import QualityReport
 from ._notes import warn_of
-from ._repeats import find_repeats
+from ._repeats import find_repeated_elements, find_repeats
 
 #: The names of the metrics of triangles. Those of a mesh with quadrilaterals are Quality.keys().
 METRICS: Tuple[str, ...] = tuple(name for name, *_ in _core.metrics())
@@ -31,7 +31,7 @@ class Quality:
         those against the majority of their component. Values of triangles without area may be infinite, never NaN.
     skew, taper : numpy.ndarray of float64, shape (M,)
         Of meshes with quadrilaterals, which have no radius_ratio: NaN for triangles, as radius_ratio is for
-        quadrilaterals.
+        quadrilaterals. A mesh of one kind alone has the metrics of that kind.
     """
 
     __slots__ = ("summary", "_values")
@@ -114,10 +114,13 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
 
         points, triangles = _device.to_host(points), _device.to_host(triangles)
     numbers, corners = _arrays.on_host(points, "points", float), _arrays.on_host(triangles, "triangles")
-    repeats = find_repeats(corners, len(numbers) if numbers.ndim == 2 else 0)
+    count = len(numbers) if numbers.ndim == 2 else 0
+    columns = corners.shape[1] if corners.ndim == 2 else 0
+    find = {3: find_repeats, 4: find_repeated_elements, 6: find_repeats}.get(columns)
+    repeats = None if find is None else find(corners, count)
     if repeats is None:
         return Quality(*_core.quality(numbers, corners, threads))
     report, values = _core.quality(numbers, repeats.triangles(), threads)
-    warn_of(repeats.notes)
+    warn_of(note.replace("counted and smoothed once", "counted once") for note in repeats.notes)
     of_all = {name: of_kept[repeats.place] for name, of_kept in values.items()}
     return Quality(_core.renumbered(report, repeats.kept), of_all)
