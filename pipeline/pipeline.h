@@ -53,8 +53,9 @@ struct BesideOutput {
   /// Is told the result, up to its last notes and times, when the mesh is complete under another name, or beside the
   /// document. Where it throws, the run does: nothing takes its place, nothing is left, the document is as it was.
   std::function<void(const PipelineResult&)> prepare;
-  /// Puts in place what was prepared, right before the mesh takes its own place. Where it throws, the mesh does not;
-  /// where the mesh cannot, the run throws, and whoever placed it is to take it back.
+  /// Puts in place what was prepared, right behind the mesh: a run that is killed between the two leaves no report of a
+  /// mesh that is not there. Where it throws, the mesh goes back; over ranks it is in place before the pieces are, and
+  /// where these cannot be, the run throws, and whoever placed it is to take it back.
   std::function<void()> place;
 };
 

@@ -30,11 +30,15 @@ void write_single(PieceFiles& files, const PipelineOptions& options, const mpi::
   prepare_beside(options.beside, completed(), ranks);
   agree(ranks, [&] {
     if (file) {
-      file->send();
-      if (options.beside.place) {
-        options.beside.place();
-      }
       file->commit();
+      if (options.beside.place) {
+        try {
+          options.beside.place();
+        } catch (...) {
+          file->take_back();
+          throw;
+        }
+      }
     }
   });
 }

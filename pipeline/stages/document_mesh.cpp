@@ -120,11 +120,15 @@ void DocumentMesh::write(const std::function<const PipelineResult&()>& completed
   if (is_last && options.beside.prepare) {
     options.beside.prepare(result);
   }
-  mesh.send();
-  if (is_last && options.beside.place) {
-    options.beside.place();
-  }
   mesh.commit();
+  if (is_last && options.beside.place) {
+    try {
+      options.beside.place();
+    } catch (...) {
+      mesh.take_back();
+      throw;
+    }
+  }
 }
 
 }  // namespace trismooth
