@@ -68,15 +68,11 @@ WrittenAside::WrittenAside(WrittenAside&& other) noexcept = default;
 WrittenAside& WrittenAside::operator=(WrittenAside&& other) noexcept = default;
 WrittenAside::~WrittenAside() = default;
 
-void WrittenAside::send() {
+void WrittenAside::commit() {
   if (stream_ != nullptr) {
     write_standard_output(stream_->view());
     stream_.reset();
   }
-}
-
-void WrittenAside::commit() {
-  send();
   try {
     for (const std::unique_ptr<OutputFile>& file : files_) {
       file->commit();
@@ -84,6 +80,18 @@ void WrittenAside::commit() {
   } catch (const WriteError&) {
     take_back();
     throw;
+  }
+}
+
+void WrittenAside::commit_before(const std::function<void()>& next) {
+  commit();
+  if (next) {
+    try {
+      next();
+    } catch (...) {
+      take_back();
+      throw;
+    }
   }
 }
 

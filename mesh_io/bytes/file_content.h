@@ -40,12 +40,12 @@ class WrittenAside {
   WrittenAside& operator=(WrittenAside&& other) noexcept;
   ~WrittenAside();
 
-  /// Writes what is for standard output, if anything is: where several of these belong together, before the first of
-  /// them takes its place. Throws WriteError.
-  void send();
-
-  /// send(), and the files take their places, in their order, all of them or none. Throws WriteError.
+  /// Writes what is for standard output, if anything is, and the files take their places, in their order, all of them
+  /// or none. Throws WriteError.
   void commit();
+  /// commit(), then `next`, if it is any, which puts in place what belongs behind these: where that throws they go
+  /// back.
+  void commit_before(const std::function<void()>& next);
 
   /// Undoes a commit(), as OutputFile::take_back() does.
   void take_back() noexcept;

@@ -30,15 +30,7 @@ void write_single(PieceFiles& files, const PipelineOptions& options, const mpi::
   prepare_beside(options.beside, completed(), ranks);
   agree(ranks, [&] {
     if (file) {
-      file->commit();
-      if (options.beside.place) {
-        try {
-          options.beside.place();
-        } catch (...) {
-          file->take_back();
-          throw;
-        }
-      }
+      file->commit_before(options.beside.place);
     }
   });
 }

@@ -120,15 +120,7 @@ void DocumentMesh::write(const std::function<const PipelineResult&()>& completed
   if (is_last && options.beside.prepare) {
     options.beside.prepare(result);
   }
-  mesh.commit();
-  if (is_last && options.beside.place) {
-    try {
-      options.beside.place();
-    } catch (...) {
-      mesh.take_back();
-      throw;
-    }
-  }
+  mesh.commit_before(is_last ? options.beside.place : nullptr);
 }
 
 }  // namespace trismooth
