@@ -26,7 +26,7 @@ namespace trismooth {
 
 namespace {
 
-using Numbers = Eigen::Map<const Eigen::Vector3d>;
+using FilePoint = Eigen::Map<const Eigen::Vector3d>;
 
 MovingMesh moving_mesh_of(const RunState& run) {
   try {
@@ -111,13 +111,13 @@ SmoothingResult Deformer::follow() {
 }
 
 void Deformer::store(std::size_t vertex, Point2<double> place) {
-  const Numbers file(file_points_.data() + 3 * vertex);
+  const FilePoint file(file_points_.data() + 3 * vertex);
   const Eigen::Vector3d moved = run_.mesh.moved(file, file_places_[vertex], place);
   double* const stored = run_.document.points.data() + 3 * vertex;
   for (int axis = 0; axis < 3; ++axis) {
     stored[axis] = stored_coordinate(run_.document, file[axis], moved[axis]);
   }
-  run_.mesh.points[vertex] = run_.mesh.place(vertex, Numbers(stored));
+  run_.mesh.points[vertex] = run_.mesh.place(vertex, FilePoint(stored));
 }
 
 void Deformer::move_boundary() {
@@ -142,7 +142,7 @@ void Deformer::move_boundary() {
     if (is_told_[v] == 0) {
       continue;
     }
-    const Numbers displacement(displacements.of_vertex[v].data());
+    const FilePoint displacement(displacements.of_vertex[v].data());
     const double across = std::abs(displacement.dot(normal));
     if (!(across <= most_across)) {
       throw ReadError(
@@ -150,7 +150,7 @@ void Deformer::move_boundary() {
                             "is to stay",
                             v, across));
     }
-    store(v, run_.mesh.plane.project(Numbers(file_points_.data() + 3 * v) + displacement));
+    store(v, run_.mesh.plane.project(FilePoint(file_points_.data() + 3 * v) + displacement));
   }
 }
 
@@ -173,7 +173,7 @@ void Deformer::move_inside() {
     if (is_told_[middle.vertex] == 0) {
       follow_side(middle, image, file_points_, run_.document.points);
       run_.mesh.points[middle.vertex] =
-          run_.mesh.place(middle.vertex, Numbers(run_.document.points.data() + 3 * std::size_t(middle.vertex)));
+          run_.mesh.place(middle.vertex, FilePoint(run_.document.points.data() + 3 * std::size_t(middle.vertex)));
     }
   }
 }

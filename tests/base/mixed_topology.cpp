@@ -164,7 +164,8 @@ Elements random_elements(std::mt19937_64& random, std::int32_t columns, std::int
   Elements elements;
   const bool flips = one_in(2);
   const auto add = [&](Corners corners) {
-    std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(random() % corners.size()));
+    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random() % corners.size()),
+                corners.end());
     if (flips && one_in(3)) {
       std::ranges::reverse(corners);
     }
@@ -281,7 +282,7 @@ TEST_CASE("the corners of a quadrilateral in canonical order begin with the smal
     const MixedElement listed{corners[0], corners[1], corners[2], corners[3]};
     CHECK(canonical_corners(listed, false) == MixedElement{2, 7, 4, 9});
     CHECK(canonical_corners(listed, true) == MixedElement{2, 9, 4, 7});
-    std::ranges::rotate(corners, corners.begin() + 1);
+    std::rotate(corners.begin(), corners.begin() + 1, corners.end());
   }
   CHECK(canonical_corners(MixedElement{5, 3, 8, no_corner}, false) == MixedElement{3, 8, 5, no_corner});
   CHECK(canonical_corners(MixedElement{5, 3, 8, no_corner}, true) == MixedElement{3, 5, 8, no_corner});

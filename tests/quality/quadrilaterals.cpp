@@ -143,7 +143,7 @@ TEST_CASE("a quadrilateral has the same shape to the bit whichever corner comes 
     QuadrilateralPoints corners = quadrilaterals.convex(0);
     const double expected = shape(corners);
     for (int turn = 0; turn < 4; ++turn) {
-      std::ranges::rotate(corners, corners.begin() + 1);
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
       REQUIRE(shape(corners) == expected);
     }
     std::ranges::reverse(corners);
@@ -383,7 +383,8 @@ TEST_CASE("no value depends on how elements are listed or on the number of threa
   std::mt19937_64 random(2);
   for (auto& element : listed.elements) {
     const auto corners = std::span(element).first(element[3] < 0 ? 3 : 4);
-    std::ranges::rotate(corners, corners.begin() + static_cast<std::ptrdiff_t>(random() % corners.size()));
+    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random() % corners.size()),
+                corners.end());
     if (random() % 3 == 0) {
       std::ranges::reverse(corners);
     }
