@@ -66,7 +66,7 @@ std::span<const Corners> IndexView::listed(std::int64_t vertex_count, std::vecto
 std::span<const Triangle> IndexView::triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const {
   if (columns_ != 3) {
     throw std::invalid_argument(
-        "triangles: four vertex numbers each, expected three (quadrilaterals are for quality() alone)");
+        "triangles: four vertex numbers each, expected three (quadrilaterals are for quality() and smooth() alone)");
   }
   return listed(vertex_count, converted);
 }

@@ -107,6 +107,18 @@ class IndexView {
   bool is_signed_;
 };
 
+/// What body(elements, converted) returns, called with IndexView::triangles(), or where there are four numbers of each
+/// with IndexView::elements(), and with what they may be in: the vector is the body's to keep. Throws as these do.
+template <class Body>
+auto with_elements(const IndexView& indices, std::int64_t vertex_count, const Body& body) {
+  if (indices.may_have_quadrilaterals()) {
+    std::vector<MixedElement> converted;
+    return body(indices.elements(vertex_count, converted), converted);
+  }
+  std::vector<Triangle> converted;
+  return body(indices.triangles(vertex_count, converted), converted);
+}
+
 /// An Eigen matrix of indices with an element a row (libigl's F), where its type does not tell (MatrixXi). Throws
 /// std::invalid_argument unless rows have three numbers or four.
 template <array_layout::IndexMatrix M>

@@ -6,12 +6,14 @@
 #include <bit>
 #include <functional>
 #include <limits>
+#include <span>
 #include <tuple>
 
 #include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
 #include "trismooth/base/splitmix64.h"
+#include "trismooth/base/triangle_view.h"
 
 namespace trismooth {
 
@@ -19,20 +21,39 @@ namespace {
 
 constexpr std::int64_t triangle_grain = 16384;
 
-/// The corners from the lowest to the highest, without a branch that could be mispredicted.
-Triangle ascending(const Triangle& triangle) {
+/// The corners as all copies have them: from the lowest to the highest, without a branch that could be mispredicted.
+Triangle as_of_copies(const Triangle& triangle) {
   const auto [a, b, c] = triangle;
   const std::int32_t low = std::min({a, b, c});
   const std::int32_t high = std::max({a, b, c});
   return {low, a ^ b ^ c ^ low ^ high, high};
 }
 
-/// Which copies of a triangle share: a key of its corners, in any order.
-std::uint64_t print_of(const Triangle& triangle, std::uint64_t seed) {
-  const auto [low, middle, high] = ascending(triangle);
+/// Of a quadrilateral from the lowest on, in the direction in which the lower one of its neighbours comes next.
+MixedElement as_of_copies(const MixedElement& element) {
+  if (element[3] == no_corner) {
+    const auto [low, middle, high] = as_of_copies(Triangle{element[0], element[1], element[2]});
+    return {low, middle, high, no_corner};
+  }
+  const MixedElement corners = canonical_corners(element, false);
+  return corners[1] < corners[3] ? corners : canonical_corners(element, true);
+}
+
+/// A key of the first three corners.
+std::uint64_t print_of_three(std::int32_t a, std::int32_t b, std::int32_t c, std::uint64_t seed) {
   constexpr std::uint64_t odd = 0xd6e8feb86659fd93U;
-  const std::uint64_t two = static_cast<std::uint64_t>(low) << 32U | static_cast<std::uint32_t>(middle);
-  return splitmix64(two + odd * (static_cast<std::uint64_t>(high) + seed));
+  const std::uint64_t two = static_cast<std::uint64_t>(a) << 32U | static_cast<std::uint32_t>(b);
+  return splitmix64(two + odd * (static_cast<std::uint64_t>(c) + seed));
+}
+
+/// Which copies of an element share: a key of its sides.
+std::uint64_t print_of(const Triangle& triangle, std::uint64_t seed) {
+  const auto [low, middle, high] = as_of_copies(triangle);
+  return print_of_three(low, middle, high, seed);
+}
+std::uint64_t print_of(const MixedElement& element, std::uint64_t seed) {
+  const auto [a, b, c, d] = as_of_copies(element);
+  return splitmix64(print_of_three(a, b, c, seed) + static_cast<std::uint64_t>(d));
 }
 
 /// Bits that many threads set; each print has one.
@@ -55,8 +76,8 @@ class SharedBits {
 
 /// Those of `count` triangles that have the bit of another one: all copies with their firsts, and at most an eighth of
 /// the others. number_of(i): the number of the triangle in place i.
-template <class NumberOf>
-BulkVector<std::int32_t> with_common_bits(std::span<const Triangle> triangles, std::size_t count,
+template <class Corners, class NumberOf>
+BulkVector<std::int32_t> with_common_bits(std::span<const Corners> triangles, std::size_t count,
                                           const NumberOf& number_of, std::uint64_t seed, Workers& workers) {
   constexpr std::size_t bits_a_triangle = 8;
   const auto print_at = [&](std::int64_t i) {
@@ -75,9 +96,10 @@ BulkVector<std::int32_t> with_common_bits(std::span<const Triangle> triangles, s
       static_cast<std::int64_t>(count), [&](std::int64_t i) { return met_again.has(print_at(i)); }, workers, number_of);
 }
 
-/// A triangle that may be there more than once.
+/// An element that may be there more than once.
+template <class Corners>
 struct Suspect {
-  Triangle corners;  ///< ascending
+  Corners corners;  ///< as_of_copies()
   std::int32_t triangle;
 
   bool operator<(const Suspect& other) const {
@@ -85,17 +107,16 @@ struct Suspect {
   }
 };
 
-}  // namespace
-
-std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> triangles, Workers& workers) {
+template <class Corners>
+std::vector<RepeatedTriangle> find_repeated(std::span<const Corners> triangles, Workers& workers) {
   const auto some = with_common_bits(
       triangles, triangles.size(), [](std::int64_t i) { return static_cast<std::int32_t>(i); }, 0, workers);
   const auto few = with_common_bits(
       triangles, some.size(), [&](std::int64_t i) { return some[static_cast<std::size_t>(i)]; }, 1, workers);
-  std::vector<Suspect> suspects;
+  std::vector<Suspect<Corners>> suspects;
   suspects.reserve(few.size());
   for (const std::int32_t t : few) {
-    suspects.push_back({ascending(triangles[static_cast<std::size_t>(t)]), t});
+    suspects.push_back({as_of_copies(triangles[static_cast<std::size_t>(t)]), t});
   }
   std::ranges::sort(suspects, std::less<>{});
   std::vector<RepeatedTriangle> repeated;
@@ -110,10 +131,16 @@ std::vector<RepeatedTriangle> find_repeated_triangles(std::span<const Triangle> 
   return repeated;
 }
 
+}  // namespace
+
+std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, Workers& workers) {
+  return with_elements(triangles, std::numeric_limits<std::int32_t>::max(),
+                       [&](const auto& listed, const auto& /*converted*/) { return find_repeated(listed, workers); });
+}
+
 std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, int threads) {
-  std::vector<Triangle> converted;
   Workers workers(threads);
-  return find_repeated_triangles(triangles.triangles(std::numeric_limits<std::int32_t>::max(), converted), workers);
+  return find_repeated_triangles(triangles, workers);
 }
 
 }  // namespace trismooth

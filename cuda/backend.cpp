@@ -33,7 +33,7 @@
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/errors.h"
-#include "trismooth/smoothing/rings/fixed_triangles.h"
+#include "trismooth/smoothing/rings/fixed_elements.h"
 
 namespace trismooth::cuda {
 
@@ -86,7 +86,7 @@ class RingSmoother final : public PreparedSmoother {
       reversed_ = mesh.reversed;
     }
     if (options.measures_shape() || options.untangles()) {
-      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.fixed, copier_.workers());
+      fixed_elements_ = FixedElements(triangles, mesh.reversed, mesh.fixed, copier_.workers());
     }
     context_.synchronize();
     prepare_ms_ = watch.milliseconds();
@@ -97,7 +97,7 @@ class RingSmoother final : public PreparedSmoother {
     smoother_->read_sizes(fixed_);
     const LocalFrame frame = known_frame ? *known_frame : local_frame_of_cells(points, fixed_);
     const double fixed_quotient =
-        fixed_triangles_.smallest_quotient([&](std::int32_t v) { return frame.enter(points[v]); });
+        fixed_elements_.smallest_quotient([&](std::int32_t v) { return frame.enter(points[v]); });
     frame_.upload({&frame, 1});
     bool is_tangled = false;
     SmoothingResult result = smooth_host_points(context_, copier_, stored_, points, nullptr, [&] {
@@ -130,7 +130,7 @@ class RingSmoother final : public PreparedSmoother {
   DeviceBuffer<Point2<double>> stored_;
   DeviceBuffer<LocalFrame> frame_;
   std::vector<std::uint8_t> fixed_;           ///< as MeshRings::fixed
-  FixedTriangles fixed_triangles_;            ///< where they are asked for
+  FixedElements fixed_elements_;              ///< where they are asked for
   std::optional<HostUntangling> untangling_;  ///< where the mesh may have to be untangled
   std::vector<std::uint8_t> reversed_;        ///< likewise; as MeshRings::reversed
   bool is_guarded_;

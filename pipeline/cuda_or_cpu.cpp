@@ -127,6 +127,14 @@ std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(MeshRings mesh, std::span<c
   return std::make_unique<NotedSmoother>(cpu_.prepare(std::move(mesh), triangles, local, options), note);
 }
 
+std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
+                                                           std::span<const Point2<double>> local,
+                                                           const SmoothingOptions& options) const {
+  const bool is_for_device = is_large(count_free(mesh.rings, options.threads));
+  return std::make_unique<NotedSmoother>(cpu_.prepare_mixed(std::move(mesh), elements, local, options),
+                                         is_for_device ? "meshes with quadrilaterals are smoothed by the CPU" : "");
+}
+
 std::optional<MeshRings> CudaOrCpu::find_rings(std::span<const Point2<double>> local,
                                                std::span<const Triangle> triangles, const Constraints& constraints,
                                                const SmoothingOptions& options) const {

@@ -29,6 +29,11 @@ class CudaOrCpu final : public Backend {
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override;
 
+  /// By the CPU. Of a mesh that is large enough for CUDA the result's note says so.
+  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
+                                                  std::span<const Point2<double>> local,
+                                                  const SmoothingOptions& options) const override;
+
   /// Before the rings are found, the vertices count as free. Where CUDA fails, the rings found by the host have the
   /// note of it.
   std::optional<MeshRings> find_rings(std::span<const Point2<double>> local, std::span<const Triangle> triangles,

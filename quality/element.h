@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -27,6 +28,16 @@ constexpr Triangle from_smallest(const Triangle& corners, const Number& number) 
   const bool b_first = (of_b < of_a) & (of_b <= of_c);
   const bool c_first = (of_c < of_a) & (of_c < of_b);
   return {c_first ? c : (b_first ? b : a), c_first ? a : (b_first ? c : b), c_first ? b : (b_first ? a : c)};
+}
+
+template <class Number>
+constexpr MixedElement from_smallest(const MixedElement& quadrilateral, const Number& number) {
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    first = number(quadrilateral[i]) < number(quadrilateral[first]) ? i : first;
+  }
+  return {quadrilateral[first], quadrilateral[(first + 1) % 4], quadrilateral[(first + 2) % 4],
+          quadrilateral[(first + 3) % 4]};
 }
 
 /// The points of an element's corners.
@@ -61,6 +72,16 @@ constexpr QuadrilateralPoints points_of(const MixedElement& corners, const Point
   return points_of(corners, [&](std::int32_t v) { return points[v]; });
 }
 
+/// Calls body with the element, a Triangle where it is one.
+template <class Body>
+constexpr auto with_kind(const Triangle& triangle, const Body& body) {
+  return body(triangle);
+}
+template <class Body>
+constexpr auto with_kind(const MixedElement& element, const Body& body) {
+  return element[3] == no_corner ? body(Triangle{element[0], element[1], element[2]}) : body(element);
+}
+
 /// The shape without its factor (see triangle_quality.h).
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T shape_quotient(const TrianglePoints<T>& corners) {
@@ -69,6 +90,9 @@ constexpr TRISMOOTH_HOST_DEVICE T shape_quotient(const TrianglePoints<T>& corner
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T shape(const TrianglePoints<T>& corners) {
   return shape(corners[0], corners[1], corners[2]);
+}
+constexpr double shape_quotient(const QuadrilateralPoints& corners) {
+  return shape_quotient(corners[0], corners[1], corners[2], corners[3]);
 }
 constexpr double shape(const QuadrilateralPoints& corners) {
   return shape(corners[0], corners[1], corners[2], corners[3]);
@@ -102,6 +126,10 @@ constexpr TRISMOOTH_HOST_DEVICE bool all_are_fixed(const Element& corners, const
     }
   }
   return true;
+}
+template <class Fixed>
+constexpr bool all_are_fixed(const MixedElement& corners, const Fixed& fixed) {
+  return std::ranges::all_of(corners, [&](std::int32_t v) { return v == no_corner || fixed[v] != 0; });
 }
 
 }  // namespace trismooth

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "trismooth/base/heights.h"
@@ -95,7 +96,7 @@ QualityReport in_units_of_caller(QualityReport report, const LocalFrame& frame) 
   return report;
 }
 
-/// The quality of triangles that have been connected.
+/// The quality of elements that have been connected.
 QualityReport report_of(std::span<const Triangle> triangles, const TriangleTopology& topology,
                         const ConstPointView& points, const ElementValues& values, const QualityOptions& options,
                         Workers& workers) {
@@ -135,10 +136,9 @@ struct OfKind {
   }
 };
 
-/// The quality of elements with quadrilaterals among them.
-QualityReport report_of_both(std::span<const MixedElement> elements, const ConstPointView& points,
-                             const ElementValues& values, const QualityOptions& options, Workers& workers) {
-  const TriangleTopology topology = connect_triangles(static_cast<std::int32_t>(points.size()), elements, workers);
+QualityReport report_of(std::span<const MixedElement> elements, const TriangleTopology& topology,
+                        const ConstPointView& points, const ElementValues& values, const QualityOptions& options,
+                        Workers& workers) {
   const LocalPoints local = local_points(points, topology, workers);
   const Orientation orientation = orient(topology, elements, local.points, workers);
   OfKind<Triangle> triangles;
@@ -168,6 +168,10 @@ QualityReport report_of_both(std::span<const MixedElement> elements, const Const
       report_of(of_triangles.total(), of_quadrilaterals.total(), std::move(worst), local.frame.exponent), local.frame);
 }
 
+void require_mesh_size(std::int64_t vertex_count, const IndexView& indices) {
+  check_mesh_size(vertex_count, static_cast<std::int64_t>(indices.size()), indices.may_have_quadrilaterals() ? 4 : 3);
+}
+
 }  // namespace
 
 QualityReport quality(const ConstPointView& points, const IndexView& triangles, const QualityOptions& options) {
@@ -178,40 +182,42 @@ QualityReport quality(const ConstPointView& points, const IndexView& triangles, 
                       const QualityOptions& options) {
   require_places(values, triangles.size());
   Workers workers(options.threads);
-  check_mesh_size(static_cast<std::int64_t>(points.size()), static_cast<std::int64_t>(triangles.size()),
-                  triangles.may_have_quadrilaterals() ? 4 : 3);
-  const auto vertex_count = static_cast<std::int32_t>(points.size());
-  if (triangles.may_have_quadrilaterals()) {
-    std::vector<MixedElement> converted;
-    return report_of_both(triangles.elements(vertex_count, converted), points, values, options, workers);
-  }
-  std::vector<Triangle> converted;
-  const std::span<const Triangle> listed = triangles.triangles(vertex_count, converted);
-  return report_of(listed, connect_triangles(vertex_count, listed, workers), points, values, options, workers);
+  const auto vertex_count = static_cast<std::int64_t>(points.size());
+  require_mesh_size(vertex_count, triangles);
+  return with_elements(triangles, vertex_count, [&](const auto& listed, const auto& /*converted*/) {
+    return report_of(listed, connect_triangles(static_cast<std::int32_t>(vertex_count), listed, workers), points,
+                     values, options, workers);
+  });
 }
 
 class MeshQuality::Implementation {
  public:
   Implementation(std::int64_t vertex_count, const IndexView& triangles, int threads) {
     Workers workers(threads);
-    check_mesh_size(vertex_count, static_cast<std::int64_t>(triangles.size()));
+    require_mesh_size(vertex_count, triangles);
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
-    const std::span<const Triangle> listed = triangles.triangles(vertex_count, triangles_);
-    if (listed.data() != triangles_.data()) {
-      triangles_.assign(listed.begin(), listed.end());
-    }
-    topology_ = connect_triangles(vertex_count_, triangles_, workers);
+    with_elements(triangles, vertex_count, [&](const auto& listed, auto& converted) {
+      topology_ = connect_triangles(vertex_count_, listed, workers);
+      if (listed.data() != converted.data()) {
+        converted.assign(listed.begin(), listed.end());
+      }
+      elements_ = std::move(converted);
+    });
   }
 
   QualityReport report(const ConstPointView& points, const QualityOptions& options) const {
     require_a_point_a_vertex(points.size(), points.components(), vertex_count_);
     Workers workers(options.threads);
-    return report_of(triangles_, topology_, points, {}, options, workers);
+    return std::visit(
+        [&]<class Corners>(const std::vector<Corners>& elements) {
+          return report_of(std::span<const Corners>(elements), topology_, points, {}, options, workers);
+        },
+        elements_);
   }
 
  private:
   std::int32_t vertex_count_ = 0;
-  std::vector<Triangle> triangles_;
+  std::variant<std::vector<Triangle>, std::vector<MixedElement>> elements_;
   TriangleTopology topology_;
 };
 

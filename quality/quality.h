@@ -45,8 +45,8 @@ using ElementValues = std::array<std::span<double>, metric_count>;
 QualityReport quality(const ConstPointView& points, const IndexView& triangles, const ElementValues& values,
                       const QualityOptions& options = {});
 
-/// A mesh whose triangles, three numbers each, are analysed once, and whose quality is asked for as often as its points
-/// change. Owns a copy of the triangles. Several threads may ask at the same time.
+/// A mesh whose elements are analysed once, and whose quality is asked for as often as its points change. Owns a copy
+/// of the elements. Several threads may ask at the same time.
 class MeshQuality {
  public:
   /// Throws as quality() does for triangles, and for `threads` (0: all).

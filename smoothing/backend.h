@@ -82,6 +82,15 @@ class Backend {
                                                     std::span<const Point2<double>> local,
                                                     const SmoothingOptions& options) const = 0;
 
+  /// prepare() of a mesh with quadrilaterals, for whole meshes without sliding, which are not untangled. Throws
+  /// std::invalid_argument where the backend smooths triangles alone.
+  virtual std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings /*mesh*/,
+                                                          std::span<const MixedElement> /*elements*/,
+                                                          std::span<const Point2<double>> /*local*/,
+                                                          const SmoothingOptions& /*options*/) const {
+    throw std::invalid_argument("backend '" + name() + "' smooths triangles alone: quadrilaterals by backend 'cpu'");
+  }
+
   /// prepare() for a caller who keeps the mesh. It is copied where the backend has no other way.
   virtual std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, std::span<const Triangle> triangles,
                                                          std::span<const Point2<double>> local,

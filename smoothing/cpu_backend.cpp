@@ -21,7 +21,7 @@
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/guard/never_worse.h"
 #include "trismooth/smoothing/halo/halo.h"
-#include "trismooth/smoothing/rings/fixed_triangles.h"
+#include "trismooth/smoothing/rings/fixed_elements.h"
 #include "trismooth/smoothing/rings/packed_rings.h"
 #include "trismooth/smoothing/slide/packed_slidable.h"
 #include "trismooth/smoothing/slide/slid_vertices.h"
@@ -46,7 +46,9 @@ constexpr const char* untangling_over_parts =
 
 class CpuSmoother final : public PreparedSmoother {
  public:
-  CpuSmoother(MeshRings mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
+  /// Of triangles, or of MixedElements: without sliding and untangling then, and no part of another mesh.
+  template <class Corners>
+  CpuSmoother(MeshRings mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
               const SmoothingOptions& options, std::unique_ptr<SweepOffloads> offloads)
       : options_(options),
         offloads_(std::move(offloads)),
@@ -65,17 +67,19 @@ class CpuSmoother final : public PreparedSmoother {
     }
     if (options.measures_shape() || options.untangles()) {
       // Those of vertices that may slide are in the chains.
-      fixed_triangles_ = FixedTriangles(triangles, mesh.reversed, mesh.slidable.truly_fixed(fixed_), workers_,
-                                        part_ != nullptr ? part_->ghosts : std::span<const std::uint8_t>());
+      fixed_elements_ = FixedElements(elements, mesh.reversed, mesh.slidable.truly_fixed(fixed_), workers_,
+                                      part_ != nullptr ? part_->ghosts : std::span<const std::uint8_t>());
     }
     if (mesh.slidable.is_wanted()) {
       std::vector<std::int32_t> numbers = packed_numbers(mesh.slidable, rings_.input_index);
       const std::vector<std::uint8_t> reversed = mesh.slidable.flags_of_triangles(mesh.reversed);
       slidable_ = PackedSlidable(std::move(mesh.slidable), reversed, std::move(numbers));
     }
-    if (options.untangles()) {
-      triangles_.assign(triangles.begin(), triangles.end());
-      reversed_ = std::move(mesh.reversed);
+    if constexpr (std::is_same_v<Corners, Triangle>) {
+      if (options.untangles()) {
+        triangles_.assign(elements.begin(), elements.end());
+        reversed_ = std::move(mesh.reversed);
+      }
     }
     prepare_ms_ = watch.milliseconds();
   }
@@ -106,7 +110,7 @@ class CpuSmoother final : public PreparedSmoother {
   struct Turned {
     TurnedComponents components;
     PackedRings rings;
-    FixedTriangles fixed_triangles;
+    FixedElements fixed_elements;
   };
 
   /// One call: the caller's points, and what becomes of them, packed and in the local frame.
@@ -196,7 +200,7 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   void sweep(Run<T>& run) {
     const PackedRings& rings = run.turned ? run.turned->rings : rings_;
-    const FixedTriangles& fixed_triangles = run.turned ? run.turned->fixed_triangles : fixed_triangles_;
+    const FixedElements& fixed_elements = run.turned ? run.turned->fixed_elements : fixed_elements_;
     if (slidable_.slidable().is_wanted()) {
       run.result.sliding.emplace();
     }
@@ -209,7 +213,7 @@ class CpuSmoother final : public PreparedSmoother {
       run.slide.emplace(run.chains, workers_);
     }
     double fixed_quotient = least_of_parts(
-        halo(), fixed_triangles.smallest_quotient([&](std::int32_t v) { return run.frame.enter(run.points[v]); }));
+        halo(), fixed_elements.smallest_quotient([&](std::int32_t v) { return run.frame.enter(run.points[v]); }));
     if (!run.slide) {
       fixed_quotient =
           std::min(fixed_quotient, run.chains.smallest_quotient(std::span<const Point2<double>>(run.before)));
@@ -380,14 +384,14 @@ class CpuSmoother final : public PreparedSmoother {
     return chains;
   }
 
-  FixedTriangles fixed_triangles(const TurnedComponents& turned) {
+  FixedElements fixed_elements(const TurnedComponents& turned) {
     return {triangles_, turned_over(reversed_, turned), fixed_, workers_};
   }
 
   Turned turn(TurnedComponents components) {
     Turned turned{std::move(components), rings_, {}};
     turned.rings.neighbours = turned_neighbours(rings_.view(), triangles_, turned.components);
-    turned.fixed_triangles = fixed_triangles(turned.components);
+    turned.fixed_elements = fixed_elements(turned.components);
     return turned;
   }
 
@@ -401,7 +405,7 @@ class CpuSmoother final : public PreparedSmoother {
                                 ? sum_of_parts(halo(), inverted_triangles_of_part(rings_, after))
                                 : inverted_triangles(rings_.view(), triangles_, turned, after, workers_);
     result.inverted_fixed =
-        sum_of_parts(halo(), (turned.any() ? fixed_triangles(turned) : fixed_triangles_).inverted(input));
+        sum_of_parts(halo(), (turned.any() ? fixed_elements(turned) : fixed_elements_).inverted(input));
     result.turned_components = turned.count;
     result.turned = turned.triangles;
   }
@@ -494,7 +498,7 @@ class CpuSmoother final : public PreparedSmoother {
   std::unique_ptr<SweepOffload<float>> in_single_;  ///< one of these, where sweeps are made elsewhere
   std::unique_ptr<SweepOffload<double>> in_double_;
   PackedSlidable slidable_;
-  FixedTriangles fixed_triangles_;                              ///< where they are asked for
+  FixedElements fixed_elements_;                                ///< where they are asked for
   std::vector<Triangle> triangles_;                             ///< of the mesh, where it may have to be untangled
   std::vector<std::uint8_t> reversed_;                          ///< as MeshRings::reversed, likewise
   std::vector<double> inverse_sizes_;                           ///< that are asked for, in a call; empty: none
@@ -512,14 +516,31 @@ class CpuBackend final : public Backend {
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
-    options.validate();
-    if (options.order == Order::unordered) {
-      throw std::invalid_argument("order 'unordered' exists for CUDA only");
-    }
+    require_available(options);
     if (options.proposal && mesh.slidable.is_wanted()) {
       throw std::invalid_argument("a proposal says nothing of vertices that slide: without sliding");
     }
     return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, nullptr);
+  }
+
+  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
+                                                  std::span<const Point2<double>> local,
+                                                  const SmoothingOptions& options) const override {
+    require_available(options);
+    if (options.untangle == Untangle::on) {
+      throw std::invalid_argument("untangling is of triangles alone, and there are quadrilaterals: without it");
+    }
+    SmoothingOptions of_sweeps = options;
+    of_sweeps.untangle = Untangle::off;
+    return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, of_sweeps, nullptr);
+  }
+
+ private:
+  static void require_available(const SmoothingOptions& options) {
+    options.validate();
+    if (options.order == Order::unordered) {
+      throw std::invalid_argument("order 'unordered' exists for CUDA only");
+    }
   }
 };
 

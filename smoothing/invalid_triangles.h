@@ -12,18 +12,19 @@
 
 namespace trismooth {
 
-/// Counts what SmoothingResult::inverted and SmoothingResult::degenerate say, of all triangles t for which `counts(t)`,
-/// where position(v) is vertex v of the result in the local frame. `reversed`: as MeshRings::reversed, of the input;
-/// what the untangling turned over, as the result has it, is turned. Complexity: linear, on all workers.
-template <class Position, class Counts>
-void count_invalid(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
-                   const Position& position, const Counts& counts, Workers& workers, SmoothingResult& result) {
-  constexpr std::int64_t triangle_grain = 8192;
+/// Counts what SmoothingResult::inverted and SmoothingResult::degenerate say, of all elements t for which `counts(t)`,
+/// an array of Triangle or of MixedElement, where position(v) is vertex v of the result in the local frame. `reversed`:
+/// as MeshRings::reversed, of the input; what the untangling turned over, as the result has it, is turned. Complexity:
+/// linear, on all workers.
+template <class Elements, class Position, class Counts>
+void count_invalid(const Elements& elements, std::span<const std::uint8_t> reversed, const Position& position,
+                   const Counts& counts, Workers& workers, SmoothingResult& result) {
+  constexpr std::int64_t element_grain = 8192;
   const std::span<const std::uint8_t> turned =
       result.untangling ? std::span<const std::uint8_t>(result.untangling->turned) : std::span<const std::uint8_t>();
   std::atomic<std::int64_t> inverted{0};
   std::atomic<std::int64_t> degenerate{0};
-  workers.for_blocks(std::ssize(triangles), triangle_grain, [&](std::int64_t begin, std::int64_t end) {
+  workers.for_blocks(std::ssize(elements), element_grain, [&](std::int64_t begin, std::int64_t end) {
     std::int64_t inverted_here = 0;
     std::int64_t degenerate_here = 0;
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
@@ -31,8 +32,9 @@ void count_invalid(std::span<const Triangle> triangles, std::span<const std::uin
         continue;
       }
       const bool is_turned = !turned.empty() && turned[t] != 0;
-      const Triangle corners = canonical_corners(triangles[t], (reversed[t] != 0) != is_turned);
-      const double quotient = shape_quotient(points_of(corners, position));
+      const double quotient =
+          with_kind(canonical_corners(elements[t], (reversed[t] != 0) != is_turned),
+                    [&](const auto& corners) { return shape_quotient(points_of(corners, position)); });
       inverted_here += quotient < 0 ? 1 : 0;
       degenerate_here += quotient == 0 ? 1 : 0;
     }
@@ -43,12 +45,12 @@ void count_invalid(std::span<const Triangle> triangles, std::span<const std::uin
   result.degenerate = degenerate;
 }
 
-/// count_invalid() of all triangles.
-template <class Position>
-void count_invalid(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
-                   const Position& position, Workers& workers, SmoothingResult& result) {
+/// count_invalid() of all elements.
+template <class Elements, class Position>
+void count_invalid(const Elements& elements, std::span<const std::uint8_t> reversed, const Position& position,
+                   Workers& workers, SmoothingResult& result) {
   count_invalid(
-      triangles, reversed, position, [](std::size_t) { return true; }, workers, result);
+      elements, reversed, position, [](std::size_t) { return true; }, workers, result);
 }
 
 }  // namespace trismooth

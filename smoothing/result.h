@@ -118,11 +118,12 @@ struct SmoothingResult {
   std::int64_t reverted_vertices = 0;  ///< vertices that the guard took back
   std::int64_t guard_rounds = 0;       ///< rounds of the guard that took vertices back
   std::int64_t free_vertices = 0;      ///< vertices that nothing holds fixed, nor to a line
-  /// Triangles that are inverted in the result, and those without area: of all, with a free vertex or not, each as its
-  /// component is oriented; of six nodes the corners. With the guard none that was valid is among them; where nothing
-  /// is untangled (`untangling` is empty) sweeps mend some of the input's and leave others. Both are -1 where nobody
-  /// has counted them: the call was over before the first sweep, so that nothing has moved, and all else that it had
-  /// not found out by then is 0 or empty.
+  std::int64_t quadrilaterals = 0;     ///< among the elements: such a mesh is not untangled
+  /// Elements that are inverted in the result, and those without area (quadrilaterals: with a corner in line): of all,
+  /// with a free vertex or not, each as its component is oriented; of six nodes the corners. With the guard none that
+  /// was valid is among them; where nothing is untangled (`untangling` is empty) sweeps mend some of the input's and
+  /// leave others. Both are -1 where nobody has counted them: the call was over before the first sweep, so that nothing
+  /// has moved, and all else that it had not found out by then is 0 or empty.
   std::int64_t inverted = 0;
   std::int64_t degenerate = 0;
   std::int32_t colours = 0;                    ///< of Form B; 0 for Form A

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/smooth.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
@@ -28,9 +29,23 @@ class SmoothingPlan::Implementation {
   Implementation(std::int64_t vertex_count, const IndexView& indices, const Constraints& constraints,
                  const SmoothingOptions& options)
       : options_(checked(options)), workers_(options.threads) {
-    check_mesh_size(vertex_count, static_cast<std::int64_t>(indices.size()));
+    check_mesh_size(vertex_count, static_cast<std::int64_t>(indices.size()), indices.may_have_quadrilaterals() ? 4 : 3);
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
-    const std::span<const Triangle> listed = indices.triangles(vertex_count, triangles_);
+    if (indices.may_have_quadrilaterals()) {
+      const std::span<const MixedElement> elements = indices.elements(vertex_count, mixed_);
+      if (!are_triangles(elements)) {
+        keep(elements, mixed_);
+        mesh_.emplace(vertex_count_, std::span<const MixedElement>(mixed_), constraints, workers_);
+        return;
+      }
+      triangles_.resize(elements.size());
+      std::ranges::transform(elements, triangles_.begin(), [](const MixedElement& e) {
+        return Triangle{e[0], e[1], e[2]};
+      });
+      release(mixed_);
+    }
+    const std::span<const Triangle> listed =
+        indices.may_have_quadrilaterals() ? triangles_ : indices.triangles(vertex_count, triangles_);
     // A device does not know of named lines.
     if (options.prefers_topology_of_device() && !constraints.slide.names_vertices()) {
       try {
@@ -47,10 +62,8 @@ class SmoothingPlan::Implementation {
         return;
       }
     }
-    if (listed.data() != triangles_.data()) {
-      triangles_.assign(listed.begin(), listed.end());
-    }
-    mesh_.emplace(vertex_count_, triangles_, constraints, workers_);
+    keep(listed, triangles_);
+    mesh_.emplace(vertex_count_, std::span<const Triangle>(triangles_), constraints, workers_);
   }
 
   const SmoothingOptions& options() const { return options_; }
@@ -75,7 +88,9 @@ class SmoothingPlan::Implementation {
       require_one_height(points, copy, [this] { return fixed(); });
     }
     SmoothingResult result = is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt)
-                                                     : smooth_oriented(copy, stored, patient);
+                             : mixed_.empty()
+                                 ? smooth_oriented(std::span<const Triangle>(triangles_), copy, stored, patient)
+                                 : smooth_oriented(std::span<const MixedElement>(mixed_), copy, stored, patient);
     result.backend_note = joined_notes(note_, result.backend_note);
     points.write(copy, workers_);
     return result;
@@ -87,23 +102,44 @@ class SmoothingPlan::Implementation {
     return options;
   }
 
+  static bool are_triangles(std::span<const MixedElement> elements) {
+    return std::ranges::all_of(elements, [](const MixedElement& element) { return element[3] == no_corner; });
+  }
+
+  template <class Corners>
+  static void keep(std::span<const Corners> listed, std::vector<Corners>& kept) {
+    if (listed.data() != kept.data()) {
+      kept.assign(listed.begin(), listed.end());
+    }
+  }
+
+  std::unique_ptr<PreparedSmoother> prepare(std::span<const Triangle> triangles,
+                                            std::span<const Point2<double>> local) {
+    return backend_of(options_).prepare(mesh_->with_rings(triangles, workers_), triangles, local, options_);
+  }
+  std::unique_ptr<PreparedSmoother> prepare(std::span<const MixedElement> elements,
+                                            std::span<const Point2<double>> local) {
+    return backend_of(options_).prepare_mixed(mesh_->with_rings(elements, workers_), elements, local, options_);
+  }
+
   /// Finds the frame and the orientation that these points give the mesh, and makes it ready again where that is new.
   /// `patient`: ends when all is ready.
-  SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage,
-                                  std::optional<CallLimit>& patient) {
+  template <class Corners>
+  SmoothingResult smooth_oriented(std::span<const Corners> elements, std::vector<Point2<double>>& points,
+                                  Storage storage, std::optional<CallLimit>& patient) {
     const LocalPoints local = entered(local_frame_of_cells(points, mesh_->fixed()), points);
-    if (mesh_->look_at(local.points, triangles_, options_.used_layers(), workers_) || smoother_ == nullptr) {
+    if (mesh_->look_at(local.points, elements, options_.used_layers(), workers_) || smoother_ == nullptr) {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
       // it.
       smoother_.reset();
-      smoother_ =
-          backend_of(options_).prepare(mesh_->with_rings(triangles_, workers_), triangles_, local.points, options_);
+      smoother_ = prepare(elements, local.points);
     }
     patient.reset();
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);
     result.layers = mesh_->layers();
+    result.quadrilaterals = std::ranges::count_if(elements, [](const auto& e) { return corner_count(e) == 4; });
     count_invalid(
-        triangles_, mesh_->reversed(), [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
+        elements, mesh_->reversed(), [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
     return result;
   }
 
@@ -114,6 +150,7 @@ class SmoothingPlan::Implementation {
   bool is_analysed_by_backend_ = false;  ///< what follows is empty then
   std::string note_;                     ///< what the user is to know of who found the topology
   std::vector<Triangle> triangles_;
+  std::vector<MixedElement> mixed_;  ///< in place of these, where quadrilaterals are among them
   std::optional<AnalysedMesh> mesh_;
 };
 

@@ -50,7 +50,7 @@ class DeviceTopology {
   /// The one-rings of the free vertices in the orientation found last.
   DeviceRings rings() const;
 
-  /// trismooth::FixedTriangles::smallest_quotient() in the orientation found last.
+  /// trismooth::FixedElements::smallest_quotient() in the orientation found last.
   double smallest_fixed_quotient(const Point2<double>* local_points) const;
 
   /// What is inverted or has no area of the points as they are stored, in the orientation found last. `frame`: on the

@@ -10,7 +10,7 @@
 
 namespace trismooth::cuda {
 
-/// trismooth::FixedTriangles::smallest_quotient(). Waits for the device.
+/// trismooth::FixedElements::smallest_quotient(). Waits for the device.
 double smallest_fixed_quotient(Context& context, const TriangleList& triangles, const Point2<double>* points,
                                const std::uint8_t* reversed, const std::uint8_t* fixed);
 

@@ -28,13 +28,12 @@ class DeviceMovingMesh : public PreparedMovingMesh<cuda::MovingMesh> {
  public:
   DeviceMovingMesh(nb::handle reference, nb::handle triangles, const nb::dict& constraints, int device,
                    std::uintptr_t stream, nb::handle /*kept*/, const nb::dict& arguments)
-      : PreparedMovingMesh(
-            HostArray(reference, "points"), triangles, constraints, arguments,
-            [&](std::optional<cuda::MovingMesh>& mesh, const ConstPointView& points, std::span<const Triangle> corners,
-                const Constraints& all, const SmoothingOptions& options) {
-              const cuda::DeviceScope scope(device);
-              mesh.emplace(points, corners, all, options, stream_of(stream));
-            }),
+      : PreparedMovingMesh(HostArray(reference, "points"), triangles, constraints, arguments,
+                           [&](std::optional<cuda::MovingMesh>& mesh, const ConstPointView& points,
+                               const IndexView& corners, const Constraints& all, const SmoothingOptions& options) {
+                             const cuda::DeviceScope scope(device);
+                             mesh.emplace(points, corners, all, options, stream_of(stream));
+                           }),
         device_(device) {
     const cuda::DeviceScope scope(device_);
     context_.emplace(stream_of(stream));

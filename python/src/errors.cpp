@@ -2,8 +2,10 @@
 #include "trismooth/python/errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include "trismooth/smoothing/errors.h"
 
@@ -33,8 +35,16 @@ std::string with_argument(const std::string& message) {
   if (message.starts_with(sizes)) {
     return "size" + message.substr(sizes.size());
   }
-  if (message.starts_with("the paper's executions")) {
-    return "execution: " + message;
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> arguments{{
+      {"the paper's executions", "execution: "},
+      {"vertices slide", "slide: "},
+      {"untangling", "untangle: "},
+      {"backend '", ""},
+  }};
+  for (const auto& [begin, argument] : arguments) {
+    if (message.starts_with(begin)) {
+      return std::string(argument) + message;
+    }
   }
   if (message.starts_with("points: ") || message.starts_with("triangles: ")) {
     return message;

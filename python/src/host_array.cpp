@@ -245,7 +245,7 @@ PointView packed_points(std::byte* numbers, std::size_t size, std::size_t compon
                                      : rows(reinterpret_cast<double*>(numbers));
 }
 
-TriangleArray::TriangleArray(const HostArray& array, bool may_have_quadrilaterals)
+TriangleArray::TriangleArray(const HostArray& array)
     : first_(array.data()), is_wide_(array.item_size() == sizeof(std::int64_t)), is_signed_(array.kind() == 'i') {
   if (array.dimensions() == 1 && array.extent(0) == 0) {
     size_ = 0;  // an empty list
@@ -259,17 +259,11 @@ TriangleArray::TriangleArray(const HostArray& array, bool may_have_quadrilateral
   if (!is_integer(array)) {
     array.raise_type("integers are needed, not " + array.type_text());
   }
-  const auto is_taken = [&](std::size_t numbers) {
-    return numbers == 3 || numbers == 6 || (numbers == 4 && may_have_quadrilaterals);
-  };
+  const auto is_taken = [](std::size_t numbers) { return numbers == 3 || numbers == 4 || numbers == 6; };
   if (array.dimensions() != 2 || !is_taken(array.extent(1))) {
-    array.raise_value(
-        "shape " + array.shape_text() + "; expected (M, 3)" +
-        (may_have_quadrilaterals ? ", (M, 4) with quadrilaterals," : ",") + " or (M, 6) for triangles of six nodes" +
-        transposed(array, "triangles", 3) +
-        (array.dimensions() == 2 && array.extent(1) == 4
-             ? "; quadrilaterals are judged by quality(), and not smoothed: other_cells holds their vertices"
-             : ""));
+    array.raise_value("shape " + array.shape_text() +
+                      "; expected (M, 3), (M, 4) with quadrilaterals, or (M, 6) for triangles of six nodes" +
+                      transposed(array, "triangles", 3));
   }
   if (array.extent(1) == 4 && array.kind() == 'u' && array.item_size() < sizeof(std::uint32_t)) {
     array.raise_type("unsigned integers of 8 or 16 bits have no -1, which the last one of a triangle is: int32 has");

@@ -83,13 +83,13 @@ class PointArray {
 /// The rows of `numbers`, which lie as PointArray::copy_to() gives them.
 PointView packed_points(std::byte* numbers, std::size_t size, std::size_t components, Storage storage);
 
-/// Vertex numbers of triangles of three or six nodes, of any integer type, as the library takes them.
+/// Vertex numbers of triangles of three or six nodes, or of elements of four, of any integer type, as the library takes
+/// them: of four the last of a triangle is -1.
 class TriangleArray {
  public:
   /// Raises for another shape or type. Views the array, or copies it where its numbers are of a type, or lie in a way,
   /// that IndexView does not take.
-  /// `may_have_quadrilaterals`: whether rows of four numbers are taken, of which the last is -1 of a triangle.
-  explicit TriangleArray(const HostArray& array, bool may_have_quadrilaterals = false);
+  explicit TriangleArray(const HostArray& array);
 
   std::size_t size() const { return size_; }
   std::size_t nodes() const { return nodes_; }

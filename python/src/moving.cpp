@@ -20,8 +20,8 @@ class HostMovingMesh : public PreparedMovingMesh<MovingMesh> {
  public:
   HostMovingMesh(nb::handle reference, nb::handle triangles, const nb::dict& constraints, const nb::dict& arguments)
       : PreparedMovingMesh(HostArray(reference, "points"), triangles, constraints, arguments,
-                           [](std::optional<MovingMesh>& mesh, const ConstPointView& points,
-                              std::span<const Triangle> corners, const Constraints& all,
+                           [](std::optional<MovingMesh>& mesh, const ConstPointView& points, const IndexView& corners,
+                              const Constraints& all,
                               const SmoothingOptions& options) { mesh.emplace(points, corners, all, options); }) {}
 
   Outcome follow(nb::handle points, nb::handle out, const std::string& start, bool with_quality,

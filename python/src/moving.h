@@ -56,7 +56,7 @@ class PreparedMovingMesh : public PreparedTriangles {
                      const nanobind::dict& arguments, const Make& make)
       : PreparedTriangles(PointArray(reference_array).size(), "moving mesh") {
     prepare(triangles, constraints, arguments, moving_options(),
-            [&](std::span<const Triangle> corners, const Constraints& all, const SmoothingOptions& options) {
+            [&](const IndexView& corners, const Constraints& all, const SmoothingOptions& options) {
               with_points(reference_array, options.threads,
                           [&](const ConstPointView& reference) { make(mesh_, reference, corners, all, options); });
             });

@@ -6,10 +6,13 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <nanobind/nanobind.h>
 
+#include "trismooth/base/index_view.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/python/constraint_arrays.h"
@@ -24,24 +27,26 @@
 
 namespace trismooth::python {
 
-/// Triangles that are prepared once for points that change: with all they refer to, for one thread at a time.
+/// Elements that are prepared once for points that change: with all they refer to, for one thread at a time.
 class PreparedTriangles {
  public:
   std::size_t vertex_count() const { return vertex_count_; }
-  std::size_t triangle_count() const { return triangles_.size(); }
+  std::size_t triangle_count() const {
+    return std::visit([](const auto& elements) { return elements.size(); }, elements_);
+  }
 
  protected:
   /// `what`: what this is, in messages: "plan".
   PreparedTriangles(std::size_t vertex_count, const char* what) : vertex_count_(vertex_count), what_(what) {}
 
-  /// Reads the arrays and options of Python, and calls make(triangles, constraints, options) without the GIL. The
+  /// Reads the arrays and options of Python, and calls make(elements, constraints, options) without the GIL. The
   /// options stay valid with the callbacks of each call. `otherwise`: see parse_options().
   template <class Make>
   void prepare(nanobind::handle triangles_object, const nanobind::dict& constraints, const nanobind::dict& arguments,
                const SmoothingOptions& otherwise, const Make& make) {
     const HostArray numbers(triangles_object, "triangles");
     const TriangleArray triangles(numbers);
-    if (triangles.nodes() != 3) {
+    if (triangles.nodes() == 6) {
       numbers.raise_value("a " + std::string(what_) + " is for triangles of three nodes; smooth() takes those of six");
     }
     const ConstraintArrays held(constraints, vertex_count_, triangles.size());
@@ -56,12 +61,14 @@ class PreparedTriangles {
     const Constraints all = held.constraints(call.slide);
     const nanobind::gil_scoped_release no_gil;
     naming_arguments([&] {
-      const IndexView corners = triangles.corners();
-      const std::span<const Triangle> kept = corners.triangles(static_cast<std::int64_t>(vertex_count_), triangles_);
-      if (kept.data() != triangles_.data()) {
-        triangles_.assign(kept.begin(), kept.end());
-      }
-      make(triangles_, all, options);
+      with_elements(triangles.corners(), static_cast<std::int64_t>(vertex_count_),
+                    [&](const auto& listed, auto& converted) {
+                      if (listed.data() != converted.data()) {
+                        converted.assign(listed.begin(), listed.end());
+                      }
+                      elements_ = std::move(converted);
+                    });
+      make(indices(), all, options);
     });
   }
 
@@ -87,7 +94,7 @@ class PreparedTriangles {
     const HostArray out(out_object, "out", HostArray::Access::write);
     std::function<MeshQuality()> mesh_quality;
     if (with_quality) {
-      mesh_quality = [this] { return MeshQuality(static_cast<std::int64_t>(vertex_count_), triangles_, threads_); };
+      mesh_quality = [this] { return MeshQuality(static_cast<std::int64_t>(vertex_count_), indices(), threads_); };
     }
     return smooth_into(points_array, out, working_, mesh_quality, threads_, accept, smooth);
   }
@@ -105,11 +112,15 @@ class PreparedTriangles {
   int threads_ = 0;
 
  private:
+  IndexView indices() const {
+    return std::visit([](const auto& elements) { return IndexView(elements); }, elements_);
+  }
+
   Turns turns_;
   std::size_t vertex_count_;
   const char* what_;
   std::vector<double> sizes_;
-  std::vector<Triangle> triangles_;
+  std::variant<std::vector<Triangle>, std::vector<MixedElement>> elements_;
   Interruption* interruption_ = nullptr;  ///< of the call that is at work
 };
 

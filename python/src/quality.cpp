@@ -38,7 +38,7 @@ using Values = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
 
 /// Copied: another thread may change the caller's while they are read.
 template <class Corners>
-std::vector<Corners> copied(std::span<const Corners> listed, std::vector<Corners> converted) {
+std::vector<Corners> copied(std::span<const Corners> listed, std::vector<Corners>& converted) {
   return listed.data() == converted.data() ? std::move(converted) : std::vector<Corners>(listed.begin(), listed.end());
 }
 
@@ -47,7 +47,7 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
   const HostArray points_array(points_object, "points");
   const PointArray points(points_array);
   const HostArray numbers(triangles_object, "triangles");
-  const TriangleArray triangles(numbers, true);
+  const TriangleArray triangles(numbers);
   const int threads = threads_of(threads_object);
   const std::size_t count = triangles.size();
   auto values = std::make_unique<std::vector<double>>(metric_count * count);
@@ -66,18 +66,11 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
                      places, QualityOptions{.threads = threads});
     };
     report = naming_arguments([&] {
-      const auto vertex_count = static_cast<std::int64_t>(points.size());
-      const IndexView corners = triangles.corners();
-      if (corners.may_have_quadrilaterals()) {
-        std::vector<MixedElement> kept;
-        const std::span<const MixedElement> listed = corners.elements(vertex_count, kept);
-        const std::vector<MixedElement> elements = copied(listed, std::move(kept));
-        return report_of(elements);
-      }
-      std::vector<Triangle> kept;
-      const std::span<const Triangle> listed = corners.triangles(vertex_count, kept);
-      const std::vector<Triangle> elements = copied(listed, std::move(kept));
-      return report_of(elements);
+      return with_elements(triangles.corners(), static_cast<std::int64_t>(points.size()),
+                           [&](const auto& listed, auto& converted) {
+                             const auto elements = copied(listed, converted);
+                             return report_of(elements);
+                           });
     });
   }
   double* const first = values->data();
@@ -92,8 +85,8 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
   return nb::make_tuple(std::move(report), arrays);
 }
 
-/// The triangles with the corners of one before them, as an array of shape (K, 2): the number of each and that of the
-/// first one. None where a triangle is not valid, which is found and told later.
+/// The elements that are listed again, as an array of shape (K, 2): the number of each and that of the first one. None
+/// where an element is not valid, which is found and told later.
 nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_count) {
   static_assert(sizeof(RepeatedTriangle) == 2 * sizeof(std::int32_t));
   const HostArray numbers(triangles_object, "triangles");
@@ -102,15 +95,15 @@ nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_co
   {
     const nb::gil_scoped_release no_gil;
     naming_arguments([&] {
-      std::vector<Triangle> converted;
-      const std::span<const Triangle> listed =
-          triangles.corners().triangles(static_cast<std::int64_t>(vertex_count), converted);
-      const std::vector<Triangle> kept = copied(listed, std::move(converted));
-      const auto count = static_cast<std::int32_t>(vertex_count);
-      if (std::ranges::none_of(kept, [&](const Triangle& triangle) { return is_faulty(count, triangle); })) {
-        Workers workers(1);
-        found = find_repeated_triangles(kept, workers);
-      }
+      with_elements(triangles.corners(), static_cast<std::int64_t>(vertex_count),
+                    [&](const auto& listed, auto& converted) {
+                      const auto kept = copied(listed, converted);
+                      const auto count = static_cast<std::int32_t>(vertex_count);
+                      if (std::ranges::none_of(kept, [&](const auto& corners) { return is_faulty(count, corners); })) {
+                        Workers workers(1);
+                        found = find_repeated_triangles(kept, workers);
+                      }
+                    });
     });
   }
   const std::size_t count = found.size();

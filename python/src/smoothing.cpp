@@ -72,7 +72,7 @@ class HostPlan : public PreparedTriangles {
   HostPlan(nb::handle triangles, std::size_t vertex_count, const nb::dict& constraints, const nb::dict& arguments)
       : PreparedTriangles(vertex_count, "plan") {
     prepare(triangles, constraints, arguments, {},
-            [&](std::span<const Triangle> corners, const Constraints& all, const SmoothingOptions& options) {
+            [&](const IndexView& corners, const Constraints& all, const SmoothingOptions& options) {
               plan_.emplace(static_cast<std::int64_t>(vertex_count), corners, all, options);
             });
   }

@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import grid
+from conftest import grid, mixed_mesh
 
 import trismooth
 
@@ -131,6 +131,22 @@ def test_quadratic_triangles_have_curved_sides():
     # The curve goes through the middle node.
     assert np.abs(polygon - [0.5, -0.2]).max(axis=1).min() < 1e-12
     assert axes.get_ylim()[0] < -0.2
+
+
+@pytest.mark.parametrize("dtype", [np.int64, np.uint32, np.uint64])
+def test_quadrilaterals_have_their_four_sides_and_triangles_three(dtype):
+    points, elements = mixed_mesh(jitter=0)
+    axes = trismooth.show(points, elements.astype(dtype))
+    polygons = [path.vertices for path in collection(axes, PolyCollection).get_paths()]
+    assert len(polygons) == len(elements)
+    corners = [len(np.unique(polygon.round(9), axis=0)) for polygon in polygons]
+    assert (corners.count(3), corners.count(4)) == ((elements[:, 3] < 0).sum(), (elements[:, 3] >= 0).sum())
+    area = sum(0.5 * abs(np.cross(p[:-1], p[1:]).sum()) for p in polygons)
+    assert area == pytest.approx(12 * 9)
+    assert len(collection(axes, LineCollection).get_segments()) == 2 * (12 + 9)
+    result = trismooth.smooth(points, elements.astype(dtype))
+    histogram = next(axes for axes in trismooth.plot(result).axes if axes.get_xlabel() == "shape")
+    assert histogram.get_ylabel() == "elements"
 
 
 def test_outline_is_the_boundary_and_the_borders_of_regions(mesh):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import trismooth
-from conftest import grid
+from conftest import grid, mixed_mesh, shape_of_quadrilateral
 
 
 def test_known_triangles():
@@ -71,31 +71,6 @@ def test_it_prints_as_a_table():
     assert "min_angle" in text and "acceptable" in text
 
 
-def mixed_mesh(columns=12, rows=9, jitter=0.2, seed=3):
-    """A grid of quadrilaterals, every third of which is two triangles."""
-    random = np.random.default_rng(seed)
-    x, y = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0))
-    points = np.column_stack([x.ravel(), y.ravel()]) + random.uniform(-jitter, jitter, ((columns + 1) * (rows + 1), 2))
-    elements = []
-    for row in range(rows):
-        for column in range(columns):
-            a = row * (columns + 1) + column
-            b, c, d = a + 1, a + columns + 2, a + columns + 1
-            elements += [[a, b, c, -1], [a, c, d, -1]] if random.random() < 1 / 3 else [[a, b, c, d]]
-    return points, np.array(elements)
-
-
-def shape_of_quadrilateral(corners):
-    """The smallest 2 sin(angle) |a| |b| / (|a|^2 + |b|^2) over the corners, from angles by the law of cosines."""
-    values = []
-    for i in range(4):
-        here, to, back = corners[i], corners[(i + 1) % 4], corners[i - 1]
-        a, b, c = (np.linalg.norm(d) for d in (to - here, back - here, to - back))
-        sine = np.sqrt(max(0.0, 1 - ((a**2 + b**2 - c**2) / (2 * a * b)) ** 2))
-        values.append(2 * sine * a * b / (a**2 + b**2))
-    return min(values)
-
-
 def test_quadrilaterals_and_triangles_have_their_metrics_and_a_summary_each():
     points, elements = mixed_mesh()
     quality = trismooth.quality(points, elements)
@@ -150,12 +125,8 @@ def test_an_element_that_is_listed_again_counts_once_and_has_the_values_of_the_f
     np.testing.assert_array_equal(quality.shape[len(elements) :], once.shape[elements[:, 3] >= 0][:2])
 
 
-def test_quadrilaterals_are_refused_where_they_are_not_smoothed():
+def test_quadrilaterals_that_are_no_mesh_are_refused_by_their_numbers():
     points, elements = mixed_mesh()
-    before = points.copy()
-    with pytest.raises(ValueError, match=r"^triangles: shape \(\d+, 4\); expected \(M, 3\)"):
-        trismooth.smooth(points, elements)
-    np.testing.assert_array_equal(points, before)
     with pytest.raises(trismooth.MeshError, match="^triangles: element 0 names vertex 999"):
         trismooth.quality(points, [[0, 1, 2, 999]])
     with pytest.raises(TypeError, match="^triangles: "):
@@ -192,7 +163,3 @@ def test_shapes_of_arrays_that_are_taken_are_named():
         trismooth.quality(points, elements[:, [0, 1, 2, 3, 3]])
     with pytest.raises(TypeError, match="^triangles: .*no -1"):
         trismooth.quality(points, elements.astype(np.uint16))
-    for make in (lambda of: trismooth.smooth(points, of), lambda of: trismooth.Plan(of, len(points))):
-        for given in (elements, np.vstack([elements, elements[:1]])):
-            with pytest.raises(ValueError, match="^triangles: .*quadrilaterals are judged by .*other_cells"):
-                make(given)

@@ -16,7 +16,7 @@ from ._smooth import Progress
 
 
 class OnHost:
-    """Triangles in memory of the host, each counted once, and what is made ready of them."""
+    """Elements in memory of the host, each counted once, and what is made ready of them."""
 
     def __init__(
         self,
@@ -60,7 +60,7 @@ class Plan:
 
     Parameters
     ----------
-    triangles : array of integers, shape (M, 3)
+    triangles : array of integers, shape (M, 3) or (M, 4)
     n_points : int
         The number of vertices.
     regions, fixed, other_cells, size, slide, lines, line_tags, links, method, backend, **options
@@ -126,7 +126,7 @@ class Plan:
 
     @property
     def n_triangles(self) -> int:
-        """The number of triangles, each counted once."""
+        """The number of triangles, and quadrilaterals, each counted once."""
         return int(self._plan.triangle_count)
 
     def smooth(
@@ -170,4 +170,5 @@ class Plan:
         )
 
     def __repr__(self) -> str:
-        return f"<trismooth.Plan: {self.n_points} vertices, {self.n_triangles} triangles>"
+        name = "triangles" if self._on_device or self._mesh.corners.shape[1:] != (4,) else "elements"
+        return f"<trismooth.Plan: {self.n_points} vertices, {self.n_triangles} {name}>"

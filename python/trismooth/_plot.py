@@ -50,8 +50,8 @@ def plot(
 ) -> Figure:
     """Draw the mesh before and after smoothing, coloured by shape, and the histogram of shapes of both.
 
-    Blue triangles are close to equilateral, red ones are nearly flat, black ones are inverted; worse triangles lie
-    above better ones. The colours mean the same in all pictures. Where the input points are not there, as of a mesh
+    Blue triangles are close to equilateral and blue quadrilaterals to squares, red ones are nearly flat, black ones are
+    inverted; worse elements lie above better ones. The colours mean the same in all pictures. Where the input points are not there, as of a mesh
     that was smoothed in place, there is only "after".
 
     In a notebook the figure is shown where it is the last value of a cell; elsewhere by ``matplotlib.pyplot.show()``.
@@ -121,8 +121,8 @@ def show(
     Parameters
     ----------
     points : array of floats, shape (N, 2) or (N, 3); or a mesh as for :func:`trismooth.smooth`
-    triangles : array of integers, shape (M, 3) or (M, 6)
-        Sides of quadratic triangles are drawn as curves; the colour is that of the corners' triangle.
+    triangles : array of integers, shape (M, 3), (M, 4) or (M, 6)
+        As for :func:`trismooth.quality`. Sides of quadratic triangles are drawn as curves; the colour is that of the corners' triangle.
     regions, window
         As for :func:`trismooth.plot`.
     title : str, optional
@@ -166,9 +166,10 @@ class _Drawing:
     Attributes
     ----------
     name : str
-    sides : ndarray, shape (M, 3, K, 2)
-        The points of each side of each triangle, from corner to corner: K is 2 of straight sides.
-    outline : ndarray of bool, shape (M, 3)
+    sides : ndarray, shape (M, 3, K, 2) or (M, 4, K, 2)
+        The points of each side of each element, from corner to corner: K is 2 of straight sides. Where there are four,
+        one of a triangle has no length.
+    outline : ndarray of bool, shape (M, 3) or (M, 4)
         Which sides are on the boundary, or between two regions.
     shapes : ndarray, shape (M,)
     report : QualityReport
@@ -200,7 +201,9 @@ def _drawing(name: str, points: Any, triangles: Any, regions: Any) -> _Drawing:
         labels = np.unique(_on_host(regions, "regions"), return_inverse=True)[1].reshape(-1)
         if len(labels) != len(nodes):
             raise ValueError(f"regions: {len(labels)} labels for {len(nodes)} triangles")
-    return _Drawing(name, _sides(plane, nodes), _outline(nodes[:, :3], labels), measured.shape, measured.summary)
+    corners = _corners(nodes)
+    middles = nodes[:, 3:] if nodes.shape[1] == 6 else None
+    return _Drawing(name, _sides(plane, corners, middles), _outline(corners, labels), measured.shape, measured.summary)
 
 
 def _on_host(array: Any, argument: str) -> np.ndarray:
@@ -211,13 +214,24 @@ def _on_host(array: Any, argument: str) -> np.ndarray:
     return _arrays.on_host(array, argument)
 
 
-def _sides(points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
-    """Return the points of each side of each triangle, shape (M, 3, K, 2)."""
-    corners = points[nodes[:, :3]]
+def _corners(nodes: np.ndarray) -> np.ndarray:
+    """Return the corners of each element: where there are four of each, the third of a triangle twice."""
+    if nodes.shape[1] != 4:
+        return nodes[:, :3]
+    corners = nodes.astype(np.int64)
+    # The largest of 32 bits is the -1 of unsigned numbers.
+    is_triangle = (corners[:, 3] == -1) | (corners[:, 3] == np.iinfo(np.uint32).max)
+    corners[is_triangle, 3] = corners[is_triangle, 2]
+    return corners
+
+
+def _sides(points: np.ndarray, corner_nodes: np.ndarray, middle_nodes: Optional[np.ndarray]) -> np.ndarray:
+    """Return the points of each side of each element, from corner to corner."""
+    corners = points[corner_nodes]
     ends = np.roll(corners, -1, axis=1)
-    if nodes.shape[1] == 3:
+    if middle_nodes is None:
         return np.stack([corners, ends], axis=2)
-    middles = points[nodes[:, 3:]]
+    middles = points[middle_nodes]
     # The quadratic curve through corner, middle and corner.
     t = np.linspace(0, 1, _PARTS_OF_SIDE + 1)[:, None]
     corners, middles, ends = corners[:, :, None], middles[:, :, None], ends[:, :, None]
@@ -226,16 +240,17 @@ def _sides(points: np.ndarray, nodes: np.ndarray) -> np.ndarray:
 
 
 def _outline(corners: np.ndarray, labels: np.ndarray) -> np.ndarray:
-    """Return which sides are on the boundary or between two labels, as a mask of shape (M, 3)."""
+    """Return which sides are on the boundary or between two labels, as a mask of the shape of the corners."""
     ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2).astype(np.int64)
     keys = ends.min(axis=1) * (ends.max() + 1) + ends.max(axis=1)
     order = np.argsort(keys, kind="stable")
-    label = np.repeat(labels, 3)[order]
+    label = np.repeat(labels, corners.shape[1])[order]
     has_equal_neighbour = (keys[order][1:] == keys[order][:-1]) & (label[1:] == label[:-1])
-    inner = np.zeros(len(keys), dtype=bool)
-    inner[order[1:]] = has_equal_neighbour
+    inner = ends[:, 0] == ends[:, 1]
+    inner[order[1:]] |= has_equal_neighbour
     inner[order[:-1]] |= has_equal_neighbour
-    return ~inner.reshape(-1, 3)
+    outer: np.ndarray = ~inner.reshape(corners.shape)
+    return outer
 
 
 def _bounds(drawings: Sequence[_Drawing]) -> Window:
@@ -336,7 +351,7 @@ def _draw_scale(figure: Figure, panels: Sequence[Axes], any_inverted: bool) -> N
 
 
 def _draw_histogram(axes: Axes, drawings: Sequence[_Drawing]) -> None:
-    """Draw how many triangles have which shape. Inverted ones have a place of their own, left of 0."""
+    """Draw how many elements have which shape. Inverted ones have a place of their own, left of 0."""
     from matplotlib.ticker import NullLocator, StrMethodFormatter
 
     any_inverted = any(drawing.report.inverted > 0 for drawing in drawings)
@@ -361,7 +376,8 @@ def _draw_histogram(axes: Axes, drawings: Sequence[_Drawing]) -> None:
     axes.set_xticks(ticks, labels)
     axes.set_xlim(-1 / bins if any_inverted else 0, 1)
     axes.set_xlabel("shape", fontsize=9)
-    axes.set_ylabel("triangles", fontsize=9)
+    has_quadrilaterals = drawings[0].report.quadrilaterals > 0
+    axes.set_ylabel("elements" if has_quadrilaterals else "triangles", fontsize=9)
     axes.tick_params(labelsize=8, length=0)
     for side in ("left", "right", "top"):
         axes.spines[side].set_visible(False)

@@ -10,7 +10,7 @@ import numpy as np
 from . import _arrays, _core
 from ._core import QualityReport
 from ._notes import warn_of
-from ._repeats import find_repeated_elements, find_repeats
+from ._repeats import find_repeats
 
 #: The names of the metrics of triangles. Those of a mesh with quadrilaterals are Quality.keys().
 METRICS: Tuple[str, ...] = tuple(name for name, *_ in _core.metrics())
@@ -114,10 +114,7 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
 
         points, triangles = _device.to_host(points), _device.to_host(triangles)
     numbers, corners = _arrays.on_host(points, "points", float), _arrays.on_host(triangles, "triangles")
-    count = len(numbers) if numbers.ndim == 2 else 0
-    columns = corners.shape[1] if corners.ndim == 2 else 0
-    find = {3: find_repeats, 4: find_repeated_elements, 6: find_repeats}.get(columns)
-    repeats = None if find is None else find(corners, count)
+    repeats = find_repeats(corners, len(numbers) if numbers.ndim == 2 else 0)
     if repeats is None:
         return Quality(*_core.quality(numbers, corners, threads))
     report, values = _core.quality(numbers, repeats.triangles(), threads)

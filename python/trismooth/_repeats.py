@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Triangles that are listed again, as programs do for every group that has them."""
+"""Triangles, and quadrilaterals, that are listed again, as programs do for every group that has them."""
 
 from __future__ import annotations
 
@@ -113,55 +113,7 @@ class Repeats:
 
 
 def find_repeats(triangles: np.ndarray, n_points: int) -> Optional[Repeats]:
-    """The triangles that have the corners of one before them; None where there are none, or no valid triangles."""
+    """The elements that are one before them, from whichever corner and in either direction; None where there are none, or no
+    valid elements."""
     pairs = _core.repeated_triangles(triangles, n_points)
     return Repeats(triangles, pairs) if len(pairs) > 0 else None
-
-
-def find_repeated_elements(elements: np.ndarray, n_points: int) -> Optional[Repeats]:
-    """The elements, of four corners or three and -1, that are one before them, from whichever corner and in either direction;
-    None where there are none, or no valid elements."""
-    if elements.dtype.kind not in "iu":
-        return None  # It is refused later.
-    corners = elements.astype(np.int64, copy=False)
-    if not _are_elements(corners, n_points):
-        return None
-    pairs = _repeated_rows(_from_smallest(corners))
-    return Repeats(elements, pairs) if len(pairs) > 0 else None
-
-
-def _are_elements(corners: np.ndarray, n_points: int) -> bool:
-    """Whether all of them name vertices, each once."""
-    is_triangle = corners[:, 3] == -1
-    last = np.where(is_triangle, corners[:, 0], corners[:, 3])
-    named = np.column_stack([corners[:, :3], last])
-    a, b, c, d = named.T
-    differ = (a != b) & (b != c) & (c != a) & (is_triangle | ((d != a) & (d != b) & (d != c)))
-    return bool(differ.all() and (named >= 0).all() and (named < n_points).all())
-
-
-def _from_smallest(corners: np.ndarray) -> np.ndarray:
-    """Each element from its smallest corner on, in the direction in which the smaller of both neighbours comes next."""
-    is_triangle = corners[:, 3] == -1
-    turned = corners.copy()
-    turned[is_triangle] = np.column_stack([np.sort(corners[is_triangle, :3], axis=1), corners[is_triangle, 3:]])
-    rows = np.flatnonzero(~is_triangle)
-    places = (corners[rows].argmin(axis=1)[:, None] + np.arange(4)) % 4
-    quadrilaterals = np.take_along_axis(corners[rows], places, axis=1)
-    is_against = quadrilaterals[:, 1] > quadrilaterals[:, 3]
-    quadrilaterals[is_against] = quadrilaterals[is_against][:, [0, 3, 2, 1]]
-    turned[rows] = quadrilaterals
-    return turned
-
-
-def _repeated_rows(rows: np.ndarray) -> np.ndarray:
-    """The numbers of rows that are there before, and of the first such row."""
-    # Keys of equal rows are equal, and few others: only these are compared.
-    keys = rows.astype(np.uint64) @ np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0xD6E8FEB86659FD93], np.uint64)
-    order = np.argsort(keys, kind="stable")
-    is_same = keys[order][1:] == keys[order][:-1]
-    some = np.sort(order[np.append(is_same, False) | np.append(False, is_same)]) if len(rows) > 0 else order
-    _, first, which = np.unique(rows[some], axis=0, return_index=True, return_inverse=True)
-    firsts = some[first[which.reshape(-1)]]
-    is_copy = firsts != some
-    return np.column_stack([some[is_copy], firsts[is_copy]])

@@ -20,12 +20,15 @@ NOT_MENDED = "the untangling could not mend more, and triangles that are held at
 
 
 def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
-    """What to say of triangles that are not valid in the result: a sentence, or none."""
-    kinds = ((outcome.inverted, "inverted triangle{}"), (outcome.degenerate, "triangle{} without area"))
+    """What to say of elements that are not valid in the result: a sentence, or none."""
+    name = "triangle" if outcome.quadrilaterals == 0 else "element"
+    kinds = ((outcome.inverted, f"inverted {name}{{}}"), (outcome.degenerate, f"{name}{{}} without area"))
     found = [f"{count:,} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]
     if not found:
         return []
-    if outcome.untangling is None:
+    if outcome.quadrilaterals > 0:
+        why = "quadrilaterals are not untangled; a mesh of the triangles that they can be cut into is"
+    elif outcome.untangling is None:
         why = "nothing untangled the mesh; untangle=True does"
     else:
         why = NOT_MENDED
@@ -126,7 +129,7 @@ class Result:
     points : array
         The smoothed points: of the shape and type of those that went in. Where ``out`` was given, that array.
     triangles : array
-        The triangles that went in.
+        The triangles, and quadrilaterals, that went in.
     input_points : array or None
         The points that went in; None where they were smoothed in place.
     mesh : object or None
@@ -225,13 +228,13 @@ class Result:
 
     @property
     def inverted(self) -> int:
-        """How many triangles are inverted in the result: those against the majority of their component. Of all, with a
+        """How many elements are inverted in the result: those against the majority of their component. Of all, with a
         free vertex or not; counted always, but -1 where the time was up before anybody could and quality=False."""
         return self._outcome.inverted
 
     @property
     def degenerate(self) -> int:
-        """How many triangles have no area in the result; -1 where inverted is."""
+        """How many elements have no area in the result, or of quadrilaterals a corner in line; -1 where inverted is."""
         return self._outcome.degenerate
 
     @property

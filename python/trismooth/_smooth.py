@@ -37,10 +37,11 @@ def smooth(
     progress: Optional[Progress] = None,
     **options: Any,
 ) -> Result:
-    """Smooths a planar triangle mesh: moves its free vertices so that the triangles get closer to equilateral.
+    """Smooths a planar mesh: moves its free vertices so that triangles get closer to equilateral, and quadrilaterals to
+    squares.
 
     Boundaries, borders of regions and what you name keep their coordinates bit for bit; with ``slide`` boundaries and
-    borders keep their lines. No triangle that was valid becomes invalid, and none ends both worse than it was and worse
+    borders keep their lines. No element that was valid becomes invalid, and none ends both worse than it was and worse
     than the worst one around the moved vertices was.
     The result is the same to the bit for every number of threads, on the CPU and on a GPU.
 
@@ -52,9 +53,11 @@ def smooth(
         ``pyvista.PolyData`` or ``UnstructuredGrid``, a ``meshio.Mesh``, a ``skfem.MeshTri``, a mesh of FEniCSx or
         Firedrake; then ``triangles`` is left out, the smoothed mesh is ``result.mesh``, ``inplace=True`` changes the
         mesh itself, and ``regions`` and ``fixed`` may name arrays or sets of the mesh.
-    triangles : array of integers, shape (M, 3) or (M, 6)
-        Vertex numbers from 0, in either direction. Six are a quadratic triangle: the corners, then the middles of the
-        sides 01, 12 and 20, which follow the ends of their sides. One that is listed again, in whatever order, counts
+    triangles : array of integers, shape (M, 3), (M, 4) or (M, 6)
+        Vertex numbers from 0, in either direction. With four, quadrilaterals are among them: the corners in turn, the
+        last of a triangle is -1. They are smoothed on the CPU, and neither untangled nor slid along lines. Six are a
+        quadratic triangle: the corners, then the middles of the sides 01, 12 and 20, which follow the ends of their
+        sides. One that is listed again, in whatever order, counts
         and is smoothed once; of arrays on a CUDA device list none again, for there it is not looked for.
     regions : array of M labels, optional
         Vertices between triangles of different labels are held. Labels of any type, texts as well. A triangle that is
@@ -70,7 +73,7 @@ def smooth(
     slide : {"off", "straight", "curves"}
         Whether vertices of boundaries and borders of regions move along them: "straight" on stretches that are straight
         to rounding, where the line stays the same set of points; "curves" on all, as far as ``deviation`` allows.
-        Triangles of six nodes do not slide. See docs/sliding.md.
+        Triangles of six nodes do not slide, nor do quadrilaterals. See docs/sliding.md.
     lines : array of integers, shape (K, 2), optional
         Edges of further lines, two vertex numbers each: their vertices are held, or slide along them. Of a mesh with
         line cells these are its lines, where vertices slide; False: it has none; an array: these in place of them.
@@ -82,7 +85,7 @@ def smooth(
         How vertices are moved. "smart" is the Smart Laplacian of the paper; "mean-ratio" gives the best elements and
         untangles inverted ones first. docs/method.md has all.
     backend : {"auto", "cpu", "cuda"}
-        Who makes the sweeps. "auto": a GPU for large meshes, where the build and the machine have one.
+        Who makes the sweeps. "auto": a GPU for large meshes of triangles, where the build and the machine have one.
     out : array, optional
         Where the result goes: of the shape and type of ``points``, which it may be. Left as it is where an exception is
         raised. Default: a new array.

@@ -16,16 +16,24 @@ namespace {
   return a == b ? 0.0 : 1.0;
 }
 
-using InLanes = double[ElementLanes::corners][ElementLanes::lanes];
+template <class Corners>
+using InLanes = double[ElementLanes<Corners>::corners][ElementLanes<Corners>::lanes];
 
-[[gnu::always_inline]] inline double quotient_in_lane(const InLanes& x, const InLanes& y, int lane) {
+[[gnu::always_inline]] inline double quotient_in_lane(const InLanes<Triangle>& x, const InLanes<Triangle>& y,
+                                                      int lane) {
   return shape_quotient<double>({x[0][lane], y[0][lane]}, {x[1][lane], y[1][lane]}, {x[2][lane], y[2][lane]});
+}
+[[gnu::always_inline]] inline double quotient_in_lane(const InLanes<MixedElement>& x, const InLanes<MixedElement>& y,
+                                                      int lane) {
+  return shape_quotient<double>({x[0][lane], y[0][lane]}, {x[1][lane], y[1][lane]}, {x[2][lane], y[2][lane]},
+                                {x[3][lane], y[3][lane]});
 }
 
 /// (Three loops: of all in one, GCC makes branches.)
-void measure_elements(int count, ElementLanes& elements) {
+template <class Corners>
+void measure_elements(int count, ElementLanes<Corners>& elements) {
   // To the end of a register: a rest would need code of its own.
-  constexpr int at_once = ElementLanes::at_once;
+  constexpr int at_once = ElementLanes<Corners>::at_once;
   const int end = (count + at_once - 1) / at_once * at_once;
   for (int lane = 0; lane < end; ++lane) {
     elements.quotients[lane] = quotient_in_lane(elements.before_x, elements.before_y, lane);
@@ -36,7 +44,7 @@ void measure_elements(int count, ElementLanes& elements) {
   }
   for (int lane = 0; lane < end; ++lane) {
     double moved = 0;
-    for (int corner = 0; corner < ElementLanes::corners; ++corner) {
+    for (int corner = 0; corner < ElementLanes<Corners>::corners; ++corner) {
       moved += differ(elements.before_x[corner][lane], elements.after_x[corner][lane]);
       moved += differ(elements.before_y[corner][lane], elements.after_y[corner][lane]);
     }
@@ -48,8 +56,12 @@ void measure_elements(int count, ElementLanes& elements) {
 
 }  // namespace
 
-ElementMeasure element_measure(InstructionSet instructions) {
-  return compiled_for<measure_elements>(instructions);
+template <class Corners>
+ElementMeasure<Corners> element_measure(InstructionSet instructions) {
+  return compiled_for<measure_elements<Corners>>(instructions);
 }
+
+template ElementMeasure<Triangle> element_measure(InstructionSet instructions);
+template ElementMeasure<MixedElement> element_measure(InstructionSet instructions);
 
 }  // namespace trismooth

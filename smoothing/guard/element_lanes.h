@@ -8,11 +8,12 @@
 
 namespace trismooth {
 
-/// Elements side by side, an element a lane, and what the never-worse guard has to know of them. Loops over lanes do in
-/// one instruction what a register has room for.
+/// Elements of one kind side by side, triangles (Triangle) or quadrilaterals (MixedElement), an element a lane, and
+/// what the never-worse guard has to know of them. Loops over lanes do in one instruction what a register has room for.
+template <class Corners>
 struct ElementLanes {
   static constexpr int lanes = 64;
-  static constexpr int corners = std::tuple_size_v<CornerPoints>;
+  static constexpr int corners = std::tuple_size_v<Corners>;
   /// Loops go over so many at a time.
   static constexpr int at_once = 8;
 
@@ -27,9 +28,11 @@ struct ElementLanes {
 };
 
 /// Fills in what is asked for of the first `count` lanes.
-using ElementMeasure = void (*)(int count, ElementLanes& elements);
+template <class Corners>
+using ElementMeasure = void (*)(int count, ElementLanes<Corners>& elements);
 
 /// The one that uses these instructions: every one gives the bits of shape_quotient() and of worsened_quotient().
-ElementMeasure element_measure(InstructionSet instructions);
+template <class Corners>
+ElementMeasure<Corners> element_measure(InstructionSet instructions);
 
 }  // namespace trismooth

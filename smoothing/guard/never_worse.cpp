@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,21 +44,21 @@ bool has_gaps(const RingView& rings, Workers& workers) {
   return found;
 }
 
-/// Elements that are measured side by side, as many as there are lanes at a time: visit(lanes, corners, count) is
-/// called when they are full, and by finish().
-template <class Visit>
-class ElementGatherer {
+/// Elements of one kind that are measured side by side, as many as there are lanes at a time:
+/// visit(lanes, corners, count) is called when they are full, and by finish().
+template <class Corners, class Visit>
+class KindGatherer {
  public:
-  ElementGatherer(const RingView& rings, std::span<const Point2<double>> before, std::span<const Point2<double>> after,
-                  const FollowingNodes* nodes, const Visit& visit)
+  KindGatherer(const RingView& rings, std::span<const Point2<double>> before, std::span<const Point2<double>> after,
+               const FollowingNodes* nodes, const Visit& visit)
       : rings_(rings), before_(before), after_(after), nodes_(nodes), visit_(visit) {}
 
   /// Takes the element, or if it does not count makes as if it had never been there: without a branch, which would be
   /// guessed wrong too often.
-  void add_if(bool counts, const Triangle& element) {
+  void add_if(bool counts, const Corners& element) {
     elements_[count_] = element;
     count_ += counts ? 1 : 0;
-    if (count_ == ElementLanes::lanes) {
+    if (count_ == Lanes::lanes) {
       finish();
     }
   }
@@ -69,18 +71,22 @@ class ElementGatherer {
       gather(lane);
     }
     measure_(static_cast<int>(count_), lanes_);
-    if (nodes_ != nullptr) {
-      judge_nodes();
+    if constexpr (std::same_as<Corners, Triangle>) {
+      if (nodes_ != nullptr) {
+        judge_nodes();
+      }
     }
     visit_(lanes_, elements_, count_);
     count_ = 0;
   }
 
  private:
+  using Lanes = ElementLanes<Corners>;
+
   /// In canonical corner order: from the corner with the smallest input index on.
   void gather(std::size_t lane) {
-    const Triangle corners = from_smallest(elements_[lane], [this](std::int32_t v) { return rings_.input(v); });
-    for (int corner = 0; corner < ElementLanes::corners; ++corner) {
+    const Corners corners = from_smallest(elements_[lane], [this](std::int32_t v) { return rings_.input(v); });
+    for (int corner = 0; corner < Lanes::corners; ++corner) {
       const std::int32_t v = corners[corner];
       lanes_.before_x[corner][lane] = before_[v].x;
       lanes_.before_y[corner][lane] = before_[v].y;
@@ -104,10 +110,36 @@ class ElementGatherer {
   std::span<const Point2<double>> after_;
   const FollowingNodes* nodes_;
   const Visit& visit_;
-  ElementMeasure measure_ = element_measure(instruction_set());
+  ElementMeasure<Corners> measure_ = element_measure<Corners>(instruction_set());
   std::size_t count_ = 0;
-  std::array<Triangle, ElementLanes::lanes> elements_;
-  ElementLanes lanes_;
+  std::array<Corners, Lanes::lanes> elements_;
+  Lanes lanes_;
+};
+
+/// Elements of both kinds.
+template <class Visit>
+class ElementGatherer {
+ public:
+  ElementGatherer(const RingView& rings, std::span<const Point2<double>> before, std::span<const Point2<double>> after,
+                  const FollowingNodes* nodes, const Visit& visit)
+      : triangles_(rings, before, after, nodes, visit) {
+    if (rings.has_quadrilaterals()) {
+      quadrilaterals_.emplace(rings, before, after, nodes, visit);
+    }
+  }
+
+  void add_if(bool counts, const Triangle& triangle) { triangles_.add_if(counts, triangle); }
+  void add_if(bool counts, const MixedElement& quadrilateral) { quadrilaterals_->add_if(counts, quadrilateral); }
+  void finish() {
+    triangles_.finish();
+    if (quadrilaterals_) {
+      quadrilaterals_->finish();
+    }
+  }
+
+ private:
+  KindGatherer<Triangle, Visit> triangles_;
+  std::optional<KindGatherer<MixedElement, Visit>> quadrilaterals_;
 };
 
 class Guard {
@@ -186,8 +218,12 @@ class Guard {
         continue;
       }
       const auto comes_later = [&](std::int32_t other) { return other > v || !is_free(other); };
-      for_elements_around(ring,
-                          [&](const auto& corner) { gatherer.add_if(corner.all(comes_later), element_at(v, corner)); });
+      const auto add = [&](const auto& corner) { gatherer.add_if(corner.all(comes_later), element_at(v, corner)); };
+      if (rings_.has_quadrilaterals()) {
+        for_elements_around(rings_.mixed(v), add);
+      } else {
+        for_elements_around(ring, add);
+      }
     }
   }
 
@@ -195,7 +231,7 @@ class Guard {
   template <class BlockAt>
   void measure(std::int64_t begin, std::int64_t end, const BlockAt& block_at) {
     GuardMinimum minimum;
-    const auto join = [&](const ElementLanes& lanes, const auto& /*elements*/, std::size_t count) {
+    const auto join = [&](const auto& lanes, const auto& /*elements*/, std::size_t count) {
       for (std::size_t lane = 0; lane < count; ++lane) {
         minimum.join({lanes.quotients[lane], lanes.worsened[lane]});
       }
@@ -217,7 +253,7 @@ class Guard {
     std::mutex joining;
     workers_.for_blocks(std::ssize(blocks_), block_grain, [&](std::int64_t begin, std::int64_t end) {
       std::vector<std::int32_t> found;
-      const auto list_offending = [&](const ElementLanes& lanes, const auto& elements, std::size_t count) {
+      const auto list_offending = [&](const auto& lanes, const auto& elements, std::size_t count) {
         for (std::size_t lane = 0; lane < count; ++lane) {
           if (lanes.worsened[lane] < threshold) {
             std::ranges::copy_if(elements[lane], std::back_inserter(found),
@@ -254,9 +290,7 @@ class Guard {
       }
       measure_again(v);
       if (v < rings_.size()) {
-        for (const std::int32_t neighbour : rings_[v]) {
-          measure_again(neighbour);
-        }
+        rings_.for_vertices_around(v, [&](std::int32_t other) { measure_again(other); });
       } else {
         for (const std::int32_t neighbour : held_[v]) {
           measure_again(neighbour);

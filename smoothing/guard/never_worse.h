@@ -58,7 +58,7 @@ struct GuardOutcome {
 /// `halo`: of a part of a mesh; null: it is the whole. The parts make the rounds together. `held` are those of its
 /// ghosts then, and what went back are vertices of the part.
 ///
-/// `nodes`: those that follow the vertices; null: none do.
+/// `nodes`: those that follow the vertices, of triangles alone; null: none do.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
                               std::span<Point2<double>> after, Workers& workers, const NumberLists& held = {},
                               Halo* halo = nullptr, FollowingNodes* nodes = nullptr);

@@ -56,7 +56,7 @@ class Cutter {
         workers_(workers),
         owners_(owners_along_curve(mesh, local, parts, workers)),
         colouring_(colour_free_vertices(mesh.rings.view(), workers)),
-        fixed_triangles_(numbers_of(
+        fixed_elements_(numbers_of(
             std::ssize(triangles), [&](std::int64_t t) { return all_are_fixed(triangles[t], mesh.fixed); }, workers)),
         is_known_(local.size()),
         number_(local.size()) {
@@ -74,7 +74,7 @@ class Cutter {
     for_vertices(part, [&](std::int32_t v, std::int32_t whole) { number_[whole] = v; });
     fill(part, of_part, number);
     take_rings(part, number);
-    take_fixed_triangles(part, number);
+    take_fixed_elements(part, number);
     find_owners_of_ghosts(part, of_part);
     return part;
   }
@@ -104,7 +104,7 @@ class Cutter {
         }
       }
     });
-    for (const std::int32_t t : fixed_triangles_) {
+    for (const std::int32_t t : fixed_elements_) {
       if (is_counted(t, number)) {
         std::ranges::for_each(triangles_[t], mark);
       }
@@ -143,8 +143,8 @@ class Cutter {
     });
   }
 
-  void take_fixed_triangles(CutPart& part, int number) {
-    for (const std::int32_t t : fixed_triangles_) {
+  void take_fixed_elements(CutPart& part, int number) {
+    for (const std::int32_t t : fixed_elements_) {
       if (is_counted(t, number)) {
         const auto& [a, b, c] = triangles_[t];
         part.triangles.push_back({number_[a], number_[b], number_[c]});
@@ -167,7 +167,7 @@ class Cutter {
   Workers& workers_;
   BulkVector<std::int32_t> owners_;
   Colouring colouring_;
-  BulkVector<std::int32_t> fixed_triangles_;  ///< the numbers of those without a free vertex
+  BulkVector<std::int32_t> fixed_elements_;  ///< the numbers of those without a free vertex
   std::int64_t free_vertices_ = 0;
   // Of the part that is made:
   BulkVector<std::uint8_t> is_known_;

@@ -312,4 +312,34 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
   return found.result;
 }
 
+LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const MixedElement> elements,
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, Workers& workers) {
+  if (layers == Layers::smooth) {
+    return {};
+  }
+  std::vector<Triangle> cut;
+  std::vector<std::uint8_t> cut_reversed;
+  cut.reserve(2 * elements.size());
+  cut_reversed.reserve(2 * elements.size());
+  const auto take = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::size_t e) {
+    cut.push_back({a, b, c});
+    cut_reversed.push_back(reversed[e]);
+  };
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    // From the smallest corner on, as that decides where the diagonals are of one length.
+    const auto [a, b, c, d] = canonical_corners(elements[e], false);
+    if (d == no_corner) {
+      take(a, b, c, e);
+    } else if (squared_length(points[b] - points[d]) < squared_length(points[a] - points[c])) {
+      take(a, b, d, e);
+      take(b, c, d, e);
+    } else {
+      take(a, b, c, e);
+      take(a, c, d, e);
+    }
+  }
+  return hold_layers(points, cut, cut_reversed, layers, slides, fixed, workers);
+}
+
 }  // namespace trismooth

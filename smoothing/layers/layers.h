@@ -116,4 +116,10 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
                          std::span<const std::uint8_t> reversed, Layers layers, bool slides,
                          std::span<std::uint8_t> fixed, Workers& workers);
 
+/// hold_layers() of a mesh with quadrilaterals: a layer of these is one of the triangles into which their shorter
+/// diagonals cut them.
+LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const MixedElement> elements,
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, Workers& workers);
+
 }  // namespace trismooth

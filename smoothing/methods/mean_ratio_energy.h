@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
+
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/methods/ring_sides.h"
 
@@ -21,6 +23,10 @@ constexpr TRISMOOTH_HOST_DEVICE V share_of_error(const ElementSize<V>& size) {
 /// The energy of a triangle:
 ///
 ///     alpha^-p + p lambda / 3 (tau + 1 / tau),     tau = area / (area aimed at)
+///
+/// Of a quadrilateral, with the shape of each corner in place of alpha and half of it as the area:
+///
+///     sum over the corners of q^-p / 2 + p lambda / 3 (tau + 1 / tau)
 ///
 /// `fixed_power`: p where the code is for this one alone; 0: it is what `power` says.
 template <class T, int fixed_power>
@@ -80,7 +86,53 @@ struct MeanRatioEnergy {
     }
   }
 
+  /// The energy of a quadrilateral, but for the corner opposite.
+  template <class V, bool shaped>
+  constexpr SideTerms<V, 1> value(const SideQuadrilateral<V, shaped>& q) const {
+    const V tau = q.doubled_area * q.inverse_area;
+    return with_size(q, SideTerms<V, 1>{{static_cast<T>(power) * (size_weight * (tau + T(1) / tau))}, {}, {}},
+                     [](const MeanRatioEnergy& shapes, const auto& corner) { return shapes.value(corner); });
+  }
+
+  /// The energy and its derivatives, as those of a triangle.
+  template <class V, bool shaped>
+  constexpr SideTerms<V, 7> expansion(const SideQuadrilateral<V, shaped>& q) const {
+    const V tau = q.doubled_area * q.inverse_area;
+    const V inverse_tau = T(1) / tau;
+    const V x = -q.c.y * (inverse_tau * q.inverse_area);
+    const V y = q.c.x * (inverse_tau * q.inverse_area);
+    const V first = size_weight * (tau - inverse_tau);
+    const V second = T(2) * size_weight * inverse_tau;
+    return with_size(q,
+                     SideTerms<V, 7>{{static_cast<T>(power) * (size_weight * (tau + inverse_tau)), first * x, first * y,
+                                      second * (x * x), second * (x * y), second * (y * y), q.spoke},
+                                     {},
+                                     {}},
+                     [](const MeanRatioEnergy& shapes, const auto& corner) {
+                       SideTerms<V, 7> terms = shapes.expansion(corner);
+                       terms.values[6] = V{};
+                       return terms;
+                     });
+  }
+
  private:
+  /// The terms of a quadrilateral: those of its size, and those that its corners have of their shapes.
+  template <class V, bool shaped, int count, class TermsOf>
+  constexpr SideTerms<V, count> with_size(const SideQuadrilateral<V, shaped>& q, SideTerms<V, count> result,
+                                          const TermsOf& terms_of) const {
+    const MeanRatioEnergy shapes{power, T(0), least_quotient};
+    result.margin = V{} + std::numeric_limits<T>::max();
+    result.share = share_of_error(q.doubled_area, q.squares);
+    for (const SideTriangle<V, shaped>& corner : q.corners) {
+      const SideTerms<V, count> terms = terms_of(shapes, corner);
+      for (int i = 0; i < count; ++i) {
+        result.values[i] += T(0.5) * terms.values[i];
+      }
+      result.margin = terms.margin < result.margin ? terms.margin : result.margin;
+    }
+    return result;
+  }
+
   template <class V>
   struct Terms {
     V tau;

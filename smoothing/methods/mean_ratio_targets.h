@@ -87,14 +87,15 @@ constexpr TRISMOOTH_HOST_DEVICE MeanRatioRing<T> measure_for_mean_ratio(Point2<T
   for_elements_around(
       ring, [&](int i) { return spoke_to<T>(ring[from_last(ring, i)], position); },
       [&](const auto& corner) {
-        const auto [area, squares] = size_of(corner);
+        const auto size = size_of(corner);
+        const auto [area, squares] = size;
         ++result.sums.count;
         if (area > T(0)) {
           areas += area;
           const T share = share_of_error(area, squares);
           result.largest_share = share > result.largest_share ? share : result.largest_share;
-          result.sums.quotients +=
-              static_cast<std::uint64_t>(static_cast<double>(area / squares) * (1 / MeanRatioSums::quotient_unit));
+          result.sums.quotients += static_cast<std::uint64_t>(static_cast<double>(quotient_of(corner, size)) *
+                                                              (1 / MeanRatioSums::quotient_unit));
         }
       });
   result.sums.areas.add(static_cast<double>(areas));
@@ -110,6 +111,18 @@ constexpr TRISMOOTH_HOST_DEVICE void add_edges(const TriangleCorner<Point2<T>>& 
     edges.add(a);
     edges.add(b);
     edges.add(b - a);
+  }
+}
+
+/// Those of a quadrilateral.
+template <class T>
+constexpr void add_edges(const QuadrilateralCorner<Point2<T>>& corner, EdgeTensor<T>& edges) {
+  const auto& [a, o, b] = corner;
+  if (cross(o, b - a) > T(0)) {
+    edges.add(a);
+    edges.add(b);
+    edges.add(o - a);
+    edges.add(o - b);
   }
 }
 
@@ -172,6 +185,16 @@ TRISMOOTH_HOST_DEVICE T largest_share_in(T of_reference, int exponents) {
   return std::ldexp(of_reference, -4 * exponents);
 }
 
+/// The area asked for of an element, from 1 / (those of its vertices).
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T asked_area(T own, const TriangleCorner<T>& corner) {
+  return T(3) / (own + corner.next + corner.previous);
+}
+template <class T>
+constexpr T asked_area(T own, const QuadrilateralCorner<T>& corner) {
+  return T(4) / ((own + corner.opposite) + (corner.next + corner.previous));
+}
+
 /// What one vertex adds to the sums beside that, where sizes are asked for. `inverse_sizes`: see relative_sizes.h, by
 /// packed vertex.
 template <class T, class Ring>
@@ -180,9 +203,7 @@ constexpr TRISMOOTH_HOST_DEVICE void add_sizes(std::int32_t v, Point2<T> positio
   const T own = inverse_sizes[v];
   for_elements_around(
       ring, [&](int i) { return inverse_sizes[ring.number(i)]; },
-      [&](const TriangleCorner<T>& corner) {
-        sums.sizes.add(static_cast<double>(T(3) / (own + corner.next + corner.previous)));
-      });
+      [&](const auto& corner) { sums.sizes.add(static_cast<double>(asked_area(own, corner))); });
   const std::uint64_t worst = MeanRatioSums::key_of(static_cast<double>(worst_quotient(position, ring)));
   sums.worst_quotient = sums.worst_quotient > worst ? sums.worst_quotient : worst;
 }
@@ -272,9 +293,21 @@ struct FixedVertexArea {
   }
 };
 
-/// Calls visit(u, area, times) for the fixed corners u of the triangles of a free vertex at `position`: twice the area,
-/// 0 where it is not positive, and how often it counts, so that each triangle counts twice from all its free corners
-/// together. Vertices from `free_count` on are fixed.
+/// How often an element counts at each of its fixed corners from a free one, so that each counts twice from all of its
+/// free corners together; in a ring with quadrilaterals, whose elements have three at most that are free, six times.
+template <class Ring, class Corner, class IsFree>
+constexpr TRISMOOTH_HOST_DEVICE std::uint64_t times_counted(const Corner& corner, const IsFree& is_free) {
+  if constexpr (MixedRing<Ring>) {
+    std::uint64_t free = 1;
+    corner.for_each([&](int i) { free += is_free(i) ? 1 : 0; });
+    return 6 / free;
+  } else {
+    return corner.all([&](int i) { return !is_free(i); }) ? 2 : 1;
+  }
+}
+
+/// Calls visit(u, area, times) for the fixed corners u of the elements of a free vertex at `position`: twice the area
+/// (see size_of()), 0 where it is not positive, and times_counted(). Vertices from `free_count` on are fixed.
 template <class T, class Ring, class Visit>
 constexpr TRISMOOTH_HOST_DEVICE void for_fixed_corners(Point2<T> position, const Ring& ring, std::int32_t free_count,
                                                        const Visit& visit) {
@@ -287,7 +320,7 @@ constexpr TRISMOOTH_HOST_DEVICE void for_fixed_corners(Point2<T> position, const
         }
         const T area = size_of(corner.with([&](int i) { return spoke_to<T>(ring[i], position); })).doubled_area;
         const double positive = area > T(0) ? static_cast<double>(area) : 0;
-        const std::uint64_t times = corner.all([&](int i) { return !is_free(i); }) ? 2 : 1;
+        const std::uint64_t times = times_counted<Ring>(corner, is_free);
         corner.for_each([&](int i) {
           if (!is_free(i)) {
             visit(ring.number(i), positive, times);

@@ -75,6 +75,23 @@ constexpr TRISMOOTH_HOST_DEVICE RingSide<V, Metric> side_of(const TriangleCorner
   return {edge, squared_length(edge), T(1) / T(3) * (inverse_area + from.inverse_area + to.inverse_area), metric};
 }
 
+/// The sides of a quadrilateral that do not end at its vertex, and what else does not change where that moves.
+template <class V, class Metric>
+struct RingQuadrilateral {
+  Point2<V> from_next;    ///< to the opposite corner
+  Point2<V> to_previous;  ///< from there
+  V inverse_area;         ///< 1 / (the area that is aimed at): of each half, twice that
+  Metric metric;
+};
+
+template <class T, class V, class Node, class Metric>
+constexpr RingQuadrilateral<V, Metric> side_of(const QuadrilateralCorner<Node>& corner, V inverse_area,
+                                               const Metric& metric) {
+  const auto& [a, o, b] = corner;
+  return {o.position - a.position, b.position - o.position,
+          T(0.25) * ((inverse_area + o.inverse_area) + (a.inverse_area + b.inverse_area)), metric};
+}
+
 /// The triangle of a side, seen from the vertex. `shaped`: the shape that is aimed at is not equilateral.
 template <class V, bool shaped>
 struct SideTriangle {
@@ -89,8 +106,7 @@ struct SideTriangle {
   V spoke;                  ///< the squared distance to the first end of the side
 };
 
-/// That of two spokes and their side. Another kind of element is a function element_of() for its corner, and the
-/// functions of MeanRatioEnergy for what it gives.
+/// That of two spokes and their side.
 template <class T, class V>
 constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, false> element_of(const TriangleCorner<RingSpoke<V>>& corner,
                                                                   const RingSide<V, EuclideanMetric<V>>& side) {
@@ -115,6 +131,80 @@ constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, true> element_of(const TriangleC
           {metric.xx + metric.xx, metric.xy + metric.xy, metric.yy + metric.yy},
           side.inverse_area,
           a.squared};
+}
+
+/// A quadrilateral, seen from the vertex: its three corners that change where the vertex moves. Each is the triangle of
+/// its two sides, but with `in_metric` and what follows from it, and with `squares`, of these two sides alone and times
+/// such a factor that equal sides at a right angle are worth as much as an equilateral triangle.
+template <class V, bool shaped>
+struct SideQuadrilateral {
+  SideTriangle<V, shaped> corners[3];
+  Point2<V> c;     ///< half the diagonal from the next to the previous corner
+  V doubled_area;  ///< see size_of()
+  V squares;
+  V inverse_area;
+  V spoke;  ///< the squared distance to the next corner
+};
+
+/// The squared length in the metric of a side, and the metric's product with a vector.
+template <class V>
+constexpr V squared_length_in(const EuclideanMetric<V>& /*metric*/, Point2<V> e) {
+  return squared_length(e);
+}
+template <class V>
+constexpr Point2<V> times(const EuclideanMetric<V>& /*metric*/, Point2<V> e) {
+  return e;
+}
+template <class V>
+constexpr Point2<V> times(const EdgeTensor<V>& metric, Point2<V> e) {
+  return {metric.xx * e.x + metric.xy * e.y, metric.xy * e.x + metric.yy * e.y};
+}
+template <class T, class V>
+constexpr EdgeTensor<V> stiffness_of(const EuclideanMetric<V>& /*metric*/, T factor) {
+  return {V{} + factor, V{}, V{} + factor};
+}
+template <class T, class V>
+constexpr EdgeTensor<V> stiffness_of(const EdgeTensor<V>& metric, T factor) {
+  return {factor * metric.xx, factor * metric.xy, factor * metric.yy};
+}
+
+template <class T, class V, class Metric>
+constexpr auto element_of(const QuadrilateralCorner<RingSpoke<V>>& corner, const RingQuadrilateral<V, Metric>& sides) {
+  constexpr bool shaped = !std::is_same_v<Metric, EuclideanMetric<V>>;
+  constexpr T worth = T(shape_constant / 2);
+  const auto& [a, o, b] = corner;
+  const Metric& metric = sides.metric;
+  // One corner, from the area of its two sides, their squares, the side of its triangle that does not end at the
+  // vertex, what pulls at this, and how many sides end there.
+  const auto at = [&](V doubled_area, V squares, V in_metric, Point2<V> c, Point2<V> spokes, T ends) {
+    const Point2<V> pull = times(metric, spokes);
+    return SideTriangle<V, shaped>{c,
+                                   doubled_area,
+                                   worth * squares,
+                                   worth * in_metric,
+                                   worth * pull.x,
+                                   worth * pull.y,
+                                   stiffness_of(metric, worth * ends),
+                                   sides.inverse_area,
+                                   a.squared};
+  };
+  const Point2<V> across = b.end - a.end;
+  const V from2 = squared_length(sides.from_next);
+  const V to2 = squared_length(sides.to_previous);
+  const V a_in_metric = squared_length_in(metric, a.edge);
+  const V b_in_metric = squared_length_in(metric, b.edge);
+  return SideQuadrilateral<V, shaped>{
+      {at(cross(a.edge, b.edge), a.squared + b.squared, a_in_metric + b_in_metric, across,
+          {a.edge.x + b.edge.x, a.edge.y + b.edge.y}, T(2)),
+       at(cross(a.edge, sides.from_next), a.squared + from2, a_in_metric + squared_length_in(metric, sides.from_next),
+          sides.from_next, a.edge, T(1)),
+       at(cross(b.edge, sides.to_previous), b.squared + to2, b_in_metric + squared_length_in(metric, sides.to_previous),
+          sides.to_previous, b.edge, T(1))},
+      {T(0.5) * across.x, T(0.5) * across.y},
+      T(0.5) * cross(o.edge, across),
+      (a.squared + b.squared) + (from2 + to2),
+      sides.inverse_area,
+      a.squared};
 }
 
 /// What a method finds for one element around a vertex, as it stands where the vertex is tried.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/rings/analysed_mesh.h"
 
+#include <concepts>
+#include <stdexcept>
 #include <utility>
 
 #include "trismooth/base/machine/workers.h"
@@ -19,19 +21,32 @@ AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> 
   }
 }
 
-bool AnalysedMesh::look_at(std::span<const Point2<double>> local, std::span<const Triangle> triangles, Layers layers,
-                           Workers& workers) {
-  Orientation orientation = orient(connectivity_.components(), triangles, local, workers);
+AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const MixedElement> elements,
+                           const Constraints& constraints, Workers& workers)
+    : connectivity_(vertex_count, elements, workers) {
+  mesh_.fixed = connectivity_.fixed_vertices(elements, constraints, workers);
+  mesh_.components = connectivity_.components().components;
+  if (constraints.slide.along != Slide::off || constraints.slide.names_vertices()) {
+    throw std::invalid_argument(
+        "vertices slide along the lines of triangles, and there are quadrilaterals: without sliding");
+  }
+}
+
+template <class Corners>
+bool AnalysedMesh::look(std::span<const Point2<double>> local, std::span<const Corners> elements, Layers layers,
+                        Workers& workers) {
+  Orientation orientation = orient(connectivity_.components(), elements, local, workers);
   const bool is_first = !has_found_layers_;
   // Each of these once, also where what comes next is given up.
   if (is_first) {
-    mesh_.layers =
-        hold_layers(local, triangles, orientation.reversed, layers, slide_.has_value(), mesh_.fixed, workers);
+    mesh_.layers = hold_layers(local, elements, orientation.reversed, layers, slide_.has_value(), mesh_.fixed, workers);
     has_found_layers_ = true;
   }
-  if (slide_) {
-    mesh_.slidable = find_slidable(triangles, mesh_.fixed, slide_->view(), workers);
-    slide_.reset();
+  if constexpr (std::same_as<Corners, Triangle>) {
+    if (slide_) {
+      mesh_.slidable = find_slidable(elements, mesh_.fixed, slide_->view(), workers);
+      slide_.reset();
+    }
   }
   mesh_.reoriented_triangles = orientation.reoriented_triangles;
   if (!is_first && orientation.reversed == mesh_.reversed) {
@@ -41,15 +56,13 @@ bool AnalysedMesh::look_at(std::span<const Point2<double>> local, std::span<cons
   return true;
 }
 
-MeshRings AnalysedMesh::with_rings(std::span<const Triangle> triangles, Workers& workers) const& {
-  MeshRings copy = mesh_;
-  copy.rings = rings_of(mesh_.fixed, triangles, workers);
-  return copy;
+bool AnalysedMesh::look_at(std::span<const Point2<double>> local, std::span<const Triangle> triangles, Layers layers,
+                           Workers& workers) {
+  return look(local, triangles, layers, workers);
 }
-
-MeshRings AnalysedMesh::with_rings(std::span<const Triangle> triangles, Workers& workers) && {
-  mesh_.rings = std::move(connectivity_).one_rings(triangles, mesh_.reversed, mesh_.fixed, workers);
-  return std::move(mesh_);
+bool AnalysedMesh::look_at(std::span<const Point2<double>> local, std::span<const MixedElement> elements, Layers layers,
+                           Workers& workers) {
+  return look(local, elements, layers, workers);
 }
 
 }  // namespace trismooth

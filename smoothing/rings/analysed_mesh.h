@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/point2.h"
@@ -19,16 +20,19 @@ namespace trismooth {
 class Workers;
 
 /// A mesh whose connectivity is analysed once, on the host, whatever its coordinates are by then. Owns all it needs but
-/// the triangles, which are handed in and are the same in every call.
+/// the elements, triangles or MixedElements, which are handed in and are the same in every call.
 class AnalysedMesh {
  public:
   /// Throws as connect_triangles() and fixed_vertices() do. Complexity: linear.
   AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles, const Constraints& constraints,
                Workers& workers);
+  /// With quadrilaterals, where no vertices slide: throws std::invalid_argument where the constraints have any do so.
+  AnalysedMesh(std::int32_t vertex_count, std::span<const MixedElement> elements, const Constraints& constraints,
+               Workers& workers);
 
   /// Why each vertex is held, bits of namespace hold; layers are among them when points have been looked at.
   const std::vector<std::uint8_t>& fixed() const { return mesh_.fixed; }
-  /// Per triangle, as the last points have it: see MeshRings.
+  /// Per element, as the last points have it: see MeshRings.
   const std::vector<std::uint8_t>& reversed() const { return mesh_.reversed; }
   /// What was held since it is flat on purpose in the first points.
   const LayersResult& layers() const { return mesh_.layers; }
@@ -37,18 +41,34 @@ class AnalysedMesh {
   /// what may slide. True where the orientation is a new one. Complexity: linear.
   bool look_at(std::span<const Point2<double>> local, std::span<const Triangle> triangles, Layers layers,
                Workers& workers);
+  bool look_at(std::span<const Point2<double>> local, std::span<const MixedElement> elements, Layers layers,
+               Workers& workers);
 
   /// The rings of the vertices that `held` leaves free, after points have been looked at. Complexity: linear.
-  OneRings rings_of(std::span<const std::uint8_t> held, std::span<const Triangle> triangles, Workers& workers) const {
-    return connectivity_.one_rings(triangles, mesh_.reversed, held, workers);
+  template <class Elements>
+  OneRings rings_of(std::span<const std::uint8_t> held, const Elements& elements, Workers& workers) const {
+    return connectivity_.one_rings(elements, mesh_.reversed, held, workers);
   }
 
   /// All that is known, after points have been looked at. Complexity: linear.
-  MeshRings with_rings(std::span<const Triangle> triangles, Workers& workers) const&;
+  template <class Elements>
+  MeshRings with_rings(const Elements& elements, Workers& workers) const& {
+    MeshRings copy = mesh_;
+    copy.rings = rings_of(mesh_.fixed, elements, workers);
+    return copy;
+  }
   /// All that is known, for the last time: the memory of it goes into the result.
-  MeshRings with_rings(std::span<const Triangle> triangles, Workers& workers) &&;
+  template <class Elements>
+  MeshRings with_rings(const Elements& elements, Workers& workers) && {
+    mesh_.rings = std::move(connectivity_).one_rings(elements, mesh_.reversed, mesh_.fixed, workers);
+    return std::move(mesh_);
+  }
 
  private:
+  /// What look_at() does to both kinds of elements.
+  template <class Corners>
+  bool look(std::span<const Point2<double>> local, std::span<const Corners> elements, Layers layers, Workers& workers);
+
   MeshConnectivity connectivity_;
   MeshRings mesh_;  ///< but for the rings
   bool has_found_layers_ = false;

@@ -88,14 +88,24 @@ template <class ComesBefore>
 Attempt colour_of(std::int32_t vertex, const RingView& rings, std::span<std::int32_t> colours,
                   const ComesBefore& comes_before) {
   SmallestFree free;
-  for (const std::int32_t neighbour : rings[vertex]) {
-    if (comes_before(neighbour, vertex)) {
-      const std::int32_t colour = std::atomic_ref(colours[neighbour]).load(std::memory_order_relaxed);
-      if (colour == uncoloured) {
-        return {uncoloured, neighbour};
+  std::int32_t awaited = none;
+  const auto leave_to = [&](std::int32_t other) {
+    if (comes_before(other, vertex)) {
+      const std::int32_t colour = std::atomic_ref(colours[other]).load(std::memory_order_relaxed);
+      awaited = colour == uncoloured ? other : none;
+      if (awaited == none) {
+        free.take(colour);
       }
-      free.take(colour);
     }
+    return awaited == none;
+  };
+  if (!std::ranges::all_of(rings[vertex], leave_to)) {
+    return {uncoloured, awaited};
+  }
+  if (rings.has_quadrilaterals() && !std::ranges::all_of(rings.mixed(vertex).opposites, [&](std::int32_t opposite) {
+        return opposite == no_corner || leave_to(opposite);
+      })) {
+    return {uncoloured, awaited};
   }
   return {free.value(), none};
 }

@@ -18,10 +18,10 @@ struct Colouring {
 };
 
 /// Greedy colouring of the free vertices in the order of splitmix64(input index): each gets the smallest colour that no
-/// neighbour before it has. Vertices of one colour share no edge. In that order the dependences are short as a rule, so
-/// it is done in parallel (Jones and Plassmann 1993), and where they are long, serially; the colours are those of the
-/// serial algorithm, whatever the numbering of the view and the number of threads. Complexity: linear, n log n where
-/// the dependences are long.
+/// other vertex of its elements before it has. Vertices of one colour share no element. In that order the dependences
+/// are short as a rule, so it is done in parallel (Jones and Plassmann 1993), and where they are long, serially; the
+/// colours are those of the serial algorithm, whatever the numbering of the view and the number of threads.
+/// Complexity: linear, n log n where the dependences are long.
 Colouring colour_free_vertices(const RingView& rings, Workers& workers);
 
 /// The serial algorithm for the rest: colours the free vertices whose colour is -1 in the order of splitmix64(input

@@ -16,6 +16,30 @@ namespace {
 
 constexpr std::int64_t fixed_grain = 16384;
 
+template <class Corners>
+std::vector<std::uint8_t> why_fixed(const TriangleTopology& topology, std::span<const Corners> elements,
+                                    const Constraints& constraints, Workers& workers) {
+  constexpr std::int32_t sides = sides_of<std::span<const Corners>>;
+  check_constraints(constraints, topology.vertex_count, std::ssize(elements));
+  std::vector<std::uint8_t> reasons = topology.hold;
+  hold_named_vertices(constraints, reasons);
+  if (!constraints.regions.empty()) {
+    workers.for_blocks(std::ssize(elements), fixed_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t e = begin; e < end; ++e) {
+        const std::int32_t corners = corner_count(elements[e]);
+        for (std::int32_t i = 0; i < corners; ++i) {
+          const std::int32_t twin = topology.twins[sides * e + i];
+          if (twin > sides * e + i && constraints.regions[e] != constraints.regions[twin / sides]) {
+            set_bits_relaxed(reasons[elements[e][i]], hold::interface);
+            set_bits_relaxed(reasons[elements[e][(i + 1) % corners]], hold::interface);
+          }
+        }
+      }
+    });
+  }
+  return reasons;
+}
+
 }  // namespace
 
 void hold_named_vertices(const Constraints& constraints, std::span<std::uint8_t> reasons) {
@@ -42,23 +66,12 @@ void hold_named_vertices(const Constraints& constraints, std::span<std::uint8_t>
 
 std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
                                          const Constraints& constraints, Workers& workers) {
-  check_constraints(constraints, topology.vertex_count, std::ssize(triangles));
-  std::vector<std::uint8_t> reasons = topology.hold;
-  hold_named_vertices(constraints, reasons);
-  if (!constraints.regions.empty()) {
-    workers.for_blocks(std::ssize(triangles), fixed_grain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t t = begin; t < end; ++t) {
-        for (std::int32_t i = 0; i < 3; ++i) {
-          const std::int32_t twin = topology.twins[3 * t + i];
-          if (twin > 3 * t + i && constraints.regions[t] != constraints.regions[twin / 3]) {
-            set_bits_relaxed(reasons[triangles[t][i]], hold::interface);
-            set_bits_relaxed(reasons[triangles[t][(i + 1) % 3]], hold::interface);
-          }
-        }
-      }
-    });
-  }
-  return reasons;
+  return why_fixed(topology, triangles, constraints, workers);
+}
+
+std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const MixedElement> elements,
+                                         const Constraints& constraints, Workers& workers) {
+  return why_fixed(topology, elements, constraints, workers);
 }
 
 std::vector<std::uint8_t> fixed_vertices(const ListedRings& listed, std::span<const Triangle> triangles,

@@ -23,6 +23,9 @@ void hold_named_vertices(const Constraints& constraints, std::span<std::uint8_t>
 std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const Triangle> triangles,
                                          const Constraints& constraints, Workers& workers);
 
+std::vector<std::uint8_t> fixed_vertices(const TriangleTopology& topology, std::span<const MixedElement> elements,
+                                         const Constraints& constraints, Workers& workers);
+
 std::vector<std::uint8_t> fixed_vertices(const ListedRings& listed, std::span<const Triangle> triangles,
                                          const Constraints& constraints, Workers& workers);
 

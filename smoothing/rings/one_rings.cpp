@@ -104,6 +104,40 @@ OneRings one_rings(const TriangleTopology& topology, std::span<const Triangle> t
   return rings;
 }
 
+OneRings one_rings(const TriangleTopology& topology, std::span<const MixedElement> elements,
+                   std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed, Workers& workers) {
+  OneRings rings = OneRings::with_sizes(
+      topology.vertex_count, [&](std::int32_t v) { return fixed[v] == 0 ? topology.degree[v] : 0; }, workers);
+  rings.opposites.resize(rings.neighbours.size());
+  const auto opposite_of = [&](std::int32_t corner) {
+    const MixedElement& element = elements[corner / 4];
+    return element[3] == no_corner ? no_corner : element[(corner + 2) % 4];
+  };
+  with_corners(topology, elements, reversed, workers, [&](const auto& corners) {
+    workers.for_blocks(topology.vertex_count, rings_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
+        if (!rings.is_free(v)) {
+          continue;
+        }
+        const auto first = rings.neighbours.begin() + rings.offsets[v];
+        const auto last = rings.neighbours.begin() + rings.offsets[v + 1];
+        const auto first_opposite = rings.opposites.begin() + rings.offsets[v];
+        auto opposite = first_opposite;
+        std::int32_t corner = topology.corner[v];
+        for (auto neighbour = first; neighbour != last; ++neighbour, ++opposite) {
+          *neighbour = corners.leading(corner);
+          *opposite = opposite_of(corner);
+          corner = corners.after(corner);
+        }
+        const auto smallest = std::min_element(first, last);
+        std::rotate(first_opposite, first_opposite + (smallest - first), opposite);
+        std::rotate(first, smallest, last);
+      }
+    });
+  });
+  return rings;
+}
+
 OneRings one_rings(const ListedRings& listed, std::span<const Triangle> triangles,
                    std::span<const std::uint8_t> reversed, std::span<const std::uint8_t> fixed, Workers& workers) {
   return are_as_listed(listed, reversed, fixed, workers) ? listed.rings

@@ -42,12 +42,18 @@ PackedRings renumbered(const RingView& rings, std::span<const std::int32_t> orde
   prefix_sums<std::int64_t>(
       packed.offsets, [&](std::int64_t v) { return rings[order[v]].size(); }, workers);
   packed.neighbours.resize(static_cast<std::size_t>(packed.offsets.back()));
+  packed.opposites.resize(rings.has_quadrilaterals() ? packed.neighbours.size() : 0);
   workers.for_blocks(free_count, packing_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t v = begin; v < end; ++v) {
       prefetch(&rings.offsets[order[std::min(v + 2 * ahead, end - 1)]]);
       prefetch(rings[order[std::min(v + ahead, end - 1)]].data());
       std::ranges::transform(rings[order[v]], packed.neighbours.begin() + packed.offsets[v],
                              [&](std::int32_t neighbour) { return new_number[neighbour]; });
+      if (rings.has_quadrilaterals()) {
+        std::ranges::transform(
+            rings.mixed(order[v]).opposites, packed.opposites.begin() + packed.offsets[v],
+            [&](std::int32_t opposite) { return opposite == no_corner ? no_corner : new_number[opposite]; });
+      }
     }
   });
   return packed;

@@ -24,6 +24,7 @@ struct PackedRings {
   BulkVector<std::int32_t> input_index;  ///< the caller's number of each packed vertex
   BulkVector<std::int64_t> offsets;      ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
   BulkVector<std::int32_t> neighbours;   ///< packed numbers, in ring order
+  BulkVector<std::int32_t> opposites;    ///< packed numbers, as OneRings::opposites
   std::vector<std::int32_t> batches{0};  ///< batch b holds packed vertices batches[b] .. batches[b + 1]
   std::int32_t colours = 0;              ///< 0 for Form A
   std::int32_t free_ghosts = 0;          ///< vertices behind the free ones that other parts of the mesh move
@@ -32,7 +33,7 @@ struct PackedRings {
   std::int32_t free_count() const { return batches.back(); }
   /// Vertices from here on are fixed.
   std::int32_t first_fixed() const { return free_count() + free_ghosts; }
-  RingView view() const { return {offsets, neighbours, input_index}; }
+  RingView view() const { return {offsets, neighbours, input_index, opposites}; }
 };
 
 /// `rings`: released on the way, so move them here where they are not needed any more. `points`: the caller's vertices

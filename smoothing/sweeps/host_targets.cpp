@@ -51,8 +51,6 @@ MeanRatioSums of_all_parts(const Halo& halo, MeanRatioSums sums) {
 template <class T>
 class HostTargets<T>::Finder {
  public:
-  using Ring = GatheredRing<T>;
-
   Finder(HostTargets& targets, std::span<const Point2<T>> points, const PackedRings& rings, Workers& workers,
          Halo* halo)
       : targets_(targets), points_(points), rings_(rings), view_(rings.view()), workers_(workers), halo_(halo) {}
@@ -60,7 +58,7 @@ class HostTargets<T>::Finder {
   void aim_at_input(const MeanRatioOptions& options) {
     const std::int32_t first_fixed = rings_.first_fixed();
     std::vector<FixedVertexArea> fixed(points_.size() - static_cast<std::size_t>(first_fixed));
-    const MeanRatioSums sums = measure([&](std::int32_t v, const Ring& ring, MeanRatioSums& /*own*/) {
+    const MeanRatioSums sums = measure([&](std::int32_t v, const auto& ring, MeanRatioSums& /*own*/) {
       for_fixed_corners(points_[v], ring, first_fixed, [&](std::int32_t u, double area, std::uint64_t /*times*/) {
         raise(fixed[u - first_fixed].largest, std::bit_cast<std::uint64_t>(area));
       });
@@ -70,7 +68,7 @@ class HostTargets<T>::Finder {
     });
     const MeanRatioMesh mesh = MeanRatioMesh::of(sums, options.size_weight, options.power);
     set_mesh(mesh);
-    for_rings([&](std::int32_t v, const Ring& ring) {
+    for_rings([&](std::int32_t v, const auto& ring) {
       for_fixed_corners(points_[v], ring, first_fixed, [&](std::int32_t u, double area, std::uint64_t times) {
         FixedVertexArea& around = fixed[u - first_fixed];
         add(around.sum, times * static_cast<std::uint64_t>(area * around.units()));
@@ -95,7 +93,7 @@ class HostTargets<T>::Finder {
     for (std::size_t v = 0; v < sizes.size(); ++v) {
       sizes[v] = static_cast<T>(inverse_sizes[rings_.input_index[v]]);
     }
-    const MeanRatioSums sums = measure([&](std::int32_t v, const Ring& ring, MeanRatioSums& own) {
+    const MeanRatioSums sums = measure([&](std::int32_t v, const auto& ring, MeanRatioSums& own) {
       add_sizes(v, points_[v], sizes.data(), ring, own);
     });
     const MeanRatioMesh mesh = MeanRatioMesh::of(sums, options.size_weight, options.power, true);
@@ -111,7 +109,7 @@ class HostTargets<T>::Finder {
   /// Brings targets of the mesh at `reference` to this one, see HostTargets::moved().
   void move_from(std::span<const Point2<T>> reference, int exponents) {
     targets_.scale_by(exponents);
-    for_rings([&](std::int32_t v, const Ring& ring) {
+    for_rings([&](std::int32_t v, const auto& ring) {
       share(v) = std::max(share(v), measure_for_mean_ratio(points_[v], ring).largest_share);
       if (!targets_.edges_.empty()) {
         const Point2<T> turn = turn_of_edges(v, points_[v], ring, [&](std::int32_t u) { return reference[u]; });
@@ -123,11 +121,11 @@ class HostTargets<T>::Finder {
 
   void find_edges() {
     std::vector<EdgeTensor<T>> around(points_.size());
-    for_rings([&](std::int32_t v, const Ring& ring) { around[v] = edges_around(points_[v], ring); });
+    for_rings([&](std::int32_t v, const auto& ring) { around[v] = edges_around(points_[v], ring); });
     update_ghosts(around);
     std::vector<EdgeTensor<T>>& edges = targets_.edges_;
     edges.resize(points_.size());
-    for_rings([&](std::int32_t v, const Ring& ring) { edges[v] = edges_nearby(v, around.data(), ring); });
+    for_rings([&](std::int32_t v, const auto& ring) { edges[v] = edges_nearby(v, around.data(), ring); });
     update_ghosts(edges);
   }
 
@@ -164,21 +162,21 @@ class HostTargets<T>::Finder {
         [&](std::int64_t begin, std::int64_t end, MeanRatioSums& own) {
           RingGatherer<T> gatherer;
           for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-            visit(v, gatherer.gather(points_, view_[v]), own);
+            gatherer.visit(points_, view_, v, [&](const auto& ring) { visit(v, ring, own); });
           }
         },
         [](MeanRatioSums& all, const MeanRatioSums& own) { all.add(own); });
   }
   template <class Visit>
   void for_rings(const Visit& visit) {
-    sum_over_rings([&](std::int32_t v, const Ring& ring, MeanRatioSums& /*own*/) { visit(v, ring); });
+    sum_over_rings([&](std::int32_t v, const auto& ring, MeanRatioSums& /*own*/) { visit(v, ring); });
   }
 
   /// The first pass: leaves each vertex's mean area in inverse_areas_ and its largest share in largest_shares_. Calls
   /// visit(v, ring, sums) with what adds up.
   template <class Visit>
   MeanRatioSums measure(const Visit& visit) {
-    const MeanRatioSums sums = sum_over_rings([&](std::int32_t v, const Ring& ring, MeanRatioSums& own) {
+    const MeanRatioSums sums = sum_over_rings([&](std::int32_t v, const auto& ring, MeanRatioSums& own) {
       const MeanRatioRing<T> found = measure_for_mean_ratio(points_[v], ring);
       own.add(found.sums);
       inverse_area(v) = found.mean_area;

@@ -232,9 +232,7 @@ class SweepDriver {
   void mark_neighbourhood(std::int32_t v, std::span<std::uint8_t> marked) const {
     const auto mark = [&](std::int32_t vertex) { std::atomic_ref(marked[vertex]).store(1, std::memory_order_relaxed); };
     mark(v);
-    for (const std::int32_t neighbour : view_[v]) {
-      mark(neighbour);
-    }
+    view_.for_vertices_around(v, mark);
   }
 
   bool reached_target(std::span<const Point2<T>> points, double fixed_quotient) {
@@ -254,7 +252,8 @@ class SweepDriver {
       RingGatherer<T> gatherer;
       T worst = std::numeric_limits<T>::infinity();
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        worst = std::min(worst, worst_quotient(points[v], gatherer.gather(points, view_[v])));
+        worst = std::min(
+            worst, gatherer.visit(points, view_, v, [&](const auto& ring) { return worst_quotient(points[v], ring); }));
       }
       const std::lock_guard lock(joining);
       smallest = std::min(smallest, worst);

@@ -61,7 +61,8 @@ class SideBySide<T, ProposedUpdate<T>> {
   static constexpr bool holds(int /*ring_size*/) { return false; }
 };
 
-/// Visits of a method to vertices, many of them side by side. What lanes cannot tell is asked for alone.
+/// Visits of a method to vertices, many of them side by side. What lanes cannot tell is asked for alone, as are all
+/// vertices of a mesh with quadrilaterals.
 template <class T, class Method>
 class VertexVisits {
  public:
@@ -72,7 +73,7 @@ class VertexVisits {
   /// edge, or settle() leaves the points as they are.
   template <class Settle>
   void visit(std::span<const std::int32_t> vertices, int ring_size, const Settle& settle) {
-    if (!side_by_side_.holds(ring_size)) {
+    if (rings_.has_quadrilaterals() || !side_by_side_.holds(ring_size)) {
       for (const std::int32_t v : vertices) {
         visit_alone(v, settle);
       }
@@ -122,7 +123,8 @@ class VertexVisits {
 
   /// Compiled once, whoever asks for everything to be inlined: few vertices come here.
   [[gnu::noinline]] VertexMove<T> move_alone(std::int32_t v) {
-    return update_over(method_, v, points_[v], gatherer_.gather(points_, rings_[v]));
+    return gatherer_.visit(points_, rings_, v,
+                           [&](const auto& ring) { return update_over(method_, v, points_[v], ring); });
   }
 
   SideBySide<T, Method> side_by_side_;

@@ -144,7 +144,7 @@ TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
   CHECK(refusal([&] {
           const Eigen::MatrixXi quads = Eigen::MatrixXi::Zero(2, 4);
           smooth(trismooth::xy_points(xy), trismooth::triangle_rows(quads));
-        }) == "argument: triangles: four vertex numbers each, expected three (quadrilaterals are for quality() alone)");
+        }) == "mesh: element 0 repeats a vertex");
   CHECK(refusal([&] {
           const Eigen::MatrixXi fives = Eigen::MatrixXi::Zero(2, 5);
           smooth(trismooth::xy_points(xy), trismooth::triangle_rows(fives));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "support/test_meshes.h"
 
 using trismooth::find_repeated_triangles;
+using trismooth::MixedElement;
 using trismooth::RepeatedTriangle;
 using trismooth::Triangle;
 using trismooth::Workers;
@@ -43,6 +45,37 @@ TEST_CASE("triangles of the same three corners are found, in whatever order and 
     Workers workers(1 + round % 3);
     REQUIRE(find_repeated_triangles(triangles, workers) == by_pairs(triangles));
   }
+}
+
+TEST_CASE("quadrilaterals of the same four sides are found, from whichever corner and in either direction") {
+  test_meshes::Random random(8);
+  std::size_t copies = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<MixedElement> elements;
+    std::vector<std::set<std::set<std::int32_t>>> sides;
+    std::vector<RepeatedTriangle> expected;
+    for (std::int32_t e = 0; e < 60; ++e) {
+      std::array<std::int32_t, 6> vertices{0, 1, 2, 3, 4, 5};
+      for (std::int32_t i = 5; i > 0; --i) {
+        std::swap(vertices[static_cast<std::size_t>(i)], vertices[static_cast<std::size_t>(random.below(i + 1))]);
+      }
+      const bool is_triangle = random.below(3) == 0;
+      elements.push_back({vertices[0], vertices[1], vertices[2], is_triangle ? -1 : vertices[3]});
+      const std::size_t count = is_triangle ? 3 : 4;
+      std::set<std::set<std::int32_t>> own;
+      for (std::size_t i = 0; i < count; ++i) {
+        own.insert({vertices[i], vertices[(i + 1) % count]});
+      }
+      if (const auto first = std::ranges::find(sides, own); first != sides.end()) {
+        expected.push_back({e, static_cast<std::int32_t>(first - sides.begin())});
+      }
+      sides.push_back(own);
+    }
+    Workers workers(1 + round % 3);
+    REQUIRE(find_repeated_triangles(elements, workers) == expected);
+    copies += expected.size();
+  }
+  CHECK(copies > 1000);
 }
 
 TEST_CASE("a large mesh has no repeated triangles, and with one it has one, by any number of threads") {

@@ -19,7 +19,7 @@
 #include "trismooth/cuda/topology/find_rings.h"
 #include "trismooth/mesh_io/halfedge/halfedge_rings.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
-#include "trismooth/smoothing/rings/fixed_triangles.h"
+#include "trismooth/smoothing/rings/fixed_elements.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/mesh_rings.h"
 
@@ -34,7 +34,7 @@ using topology_ways::find_on_host;
 using topology_ways::require_same_error;
 using topology_ways::thrown_by;
 using trismooth::Constraints;
-using trismooth::FixedTriangles;
+using trismooth::FixedElements;
 using trismooth::MeshRings;
 using trismooth::OneRings;
 using trismooth::Point2;
@@ -374,7 +374,7 @@ TEST_CASE("the orientation follows the coordinates, and says whether it has chan
     rings.neighbours.download(found.neighbours);
     require_same(found, expected.rings);
     CHECK(topology.smallest_fixed_quotient(points.data()) ==
-          FixedTriangles(positions.triangles, expected.reversed, expected.fixed, workers)
+          FixedElements(positions.triangles, expected.reversed, expected.fixed, workers)
               .smallest_quotient([&](std::int32_t v) { return positions.points[v]; }));
     return changed;
   };
@@ -399,7 +399,7 @@ TEST_CASE("the smallest quotient of the triangles without a free vertex is the h
                                   NeighbourSearch::one_thread);
     CHECK(topology.orient(points.data()));
     CHECK(topology.smallest_fixed_quotient(points.data()) ==
-          FixedTriangles(mesh.triangles, expected.reversed, expected.fixed, workers)
+          FixedElements(mesh.triangles, expected.reversed, expected.fixed, workers)
               .smallest_quotient([&points_of = mesh.points](std::int32_t v) { return points_of[v]; }));
   }
   cuda::Context context;

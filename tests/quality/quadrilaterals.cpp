@@ -26,12 +26,14 @@
 
 #include "catch.h"
 #include "support/limited_instructions.h"
+#include "support/mixed_meshes.h"
 #include "support/refusal.h"
 #include "support/same_bits.h"
 
 namespace trismooth::quadrilaterals_test {
 
 using Point = Point2<double>;
+using mixed_meshes::MixedMesh;
 using test_support::refusal;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -224,37 +226,6 @@ TEST_CASE("metrics of quadrilaterals have the same bits side by side, for every 
   }
 }
 
-/// A grid of quadrilaterals, every third of which is two triangles, jittered.
-struct MixedMesh {
-  std::vector<std::array<double, 2>> points;
-  std::vector<std::array<std::int32_t, 4>> elements;
-
-  MixedMesh(std::int32_t columns, std::int32_t rows, double jitter, std::uint64_t seed) {
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> off(-jitter, jitter);
-    for (std::int32_t row = 0; row <= rows; ++row) {
-      for (std::int32_t column = 0; column <= columns; ++column) {
-        const double x = column + off(random);
-        points.push_back({x, row + off(random)});
-      }
-    }
-    for (std::int32_t row = 0; row < rows; ++row) {
-      for (std::int32_t column = 0; column < columns; ++column) {
-        const std::int32_t a = row * (columns + 1) + column;
-        const std::int32_t c = a + columns + 2;
-        if (random() % 3 == 0) {
-          elements.push_back({a, a + 1, c, -1});
-          elements.push_back({a, c, c - 1, -1});
-        } else {
-          elements.push_back({a, a + 1, c, c - 1});
-        }
-      }
-    }
-  }
-
-  bool is_triangle(std::size_t e) const { return elements[e][3] < 0; }
-};
-
 TEST_CASE("the report of a mixed mesh sums up the values of its elements, of all and of each kind") {
   const MixedMesh mesh(60, 50, 0.42, 11);
   std::array<std::vector<double>, metric_count> values;
@@ -379,16 +350,7 @@ TEST_CASE("no value depends on how elements are listed or on the number of threa
   };
   const std::vector<double> expected = shapes_of(mesh, 1);
   CHECK(shapes_of(mesh, 4) == expected);
-  MixedMesh listed = mesh;
-  std::mt19937_64 random(2);
-  for (auto& element : listed.elements) {
-    const auto corners = std::span(element).first(element[3] < 0 ? 3 : 4);
-    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random() % corners.size()),
-                corners.end());
-    if (random() % 3 == 0) {
-      std::ranges::reverse(corners);
-    }
-  }
+  const MixedMesh listed = mesh.listed_from_other_corners(2, true);
   CHECK(shapes_of(listed, 2) == expected);
 }
 

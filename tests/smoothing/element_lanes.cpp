@@ -43,10 +43,10 @@ TEST_CASE("elements side by side are measured as one by one, to the bit, by all 
     if (instructions > trismooth::instruction_set()) {
       continue;
     }
-    const auto measure = trismooth::element_measure(instructions);
-    for (int count = 1; count <= ElementLanes::lanes; ++count) {
-      ElementLanes elements;
-      for (int lane = 0; lane < ElementLanes::lanes; ++lane) {
+    const auto measure = trismooth::element_measure<trismooth::Triangle>(instructions);
+    for (int count = 1; count <= ElementLanes<trismooth::Triangle>::lanes; ++count) {
+      ElementLanes<trismooth::Triangle> elements;
+      for (int lane = 0; lane < ElementLanes<trismooth::Triangle>::lanes; ++lane) {
         const double scale = std::ldexp(1, random.below(4) == 0 ? -random.below(500) : 0);
         const int moving = random.below(4);  // 3: none
         for (int corner = 0; corner < 3; ++corner) {

@@ -10,7 +10,7 @@
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/orientation.h"
-#include "trismooth/smoothing/rings/fixed_triangles.h"
+#include "trismooth/smoothing/rings/fixed_elements.h"
 
 #include "catch.h"
 #include "support/naive_smoothing.h"
@@ -40,7 +40,7 @@ Analysed analysed(const Mesh& mesh, int threads = 1) {
 double smallest_fixed_quotient(const Mesh& mesh) {
   const Analysed found = analysed(mesh);
   Workers workers(1);
-  return trismooth::FixedTriangles(mesh.triangles, found.reversed, found.hold, workers)
+  return trismooth::FixedElements(mesh.triangles, found.reversed, found.hold, workers)
       .smallest_quotient([&](std::int32_t v) { return mesh.points[v]; });
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("fixed triangles are found by every number of threads") {
   for (const int threads : {1, 2, 5}) {
     CAPTURE(threads);
     Workers workers(threads);
-    const trismooth::FixedTriangles found(mesh.triangles, reversed, fixed, workers);
+    const trismooth::FixedElements found(mesh.triangles, reversed, fixed, workers);
     CHECK(found.smallest_quotient(position) == smallest);
     CHECK(found.inverted(position) == inverted);
   }

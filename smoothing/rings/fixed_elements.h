@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "trismooth/base/machine/bulk_memory.h"
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/base/prefix_sums.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/quality/element.h"
+
+namespace trismooth {
+
+/// The elements without a free vertex. No sweep sees them, and none changes them; but they count for the smallest shape
+/// of the mesh, so a quality target above theirs is never reached.
+class FixedElements {
+ public:
+  /// None.
+  FixedElements() = default;
+
+  /// Those of a mesh. `reversed`: one flag a triangle, as Orientation::reversed; `fixed`: one byte a vertex, 0 is free.
+  /// `ghosts`: as MeshPart::ghosts, where it is a part of another mesh: then those whose first vertex it owns, so that
+  /// each is in one part. Complexity: linear.
+  FixedElements(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
+                std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> ghosts = {})
+      : triangles_(listed(triangles, reversed, workers, [&](const Triangle& corners) {
+          return all_are_fixed(corners, fixed) && (ghosts.empty() || ghosts[std::ranges::min(corners)] == 0);
+        })) {}
+
+  /// Those of a mesh with quadrilaterals, which is no part of another one. Complexity: linear.
+  FixedElements(std::span<const MixedElement> elements, std::span<const std::uint8_t> reversed,
+                std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> /*ghosts*/ = {})
+      : mixed_(listed(elements, reversed, workers,
+                      [&](const MixedElement& corners) { return all_are_fixed(corners, fixed); })) {}
+
+  /// Their smallest shape quotient, where position(v) is vertex v in the local frame; infinite where there is none.
+  template <class Position>
+  double smallest_quotient(const Position& position) const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for_quotients(position, [&](double quotient) { smallest = std::min(smallest, quotient); });
+    return smallest;
+  }
+
+  /// How many of them are inverted or degenerate, where position(v) is vertex v in the local frame.
+  template <class Position>
+  std::int64_t inverted(const Position& position) const {
+    std::int64_t count = 0;
+    for_quotients(position, [&](double quotient) { count += quotient > 0 ? 0 : 1; });
+    return count;
+  }
+
+ private:
+  /// Those that count, in canonical order.
+  template <class Corners, class Counts>
+  static BulkVector<Corners> listed(std::span<const Corners> elements, std::span<const std::uint8_t> reversed,
+                                    Workers& workers, const Counts& counts) {
+    BulkVector<Corners> found;
+    // Memory that is never touched costs nothing.
+    found.resize(elements.size());
+    const std::int64_t count = for_each_numbered(
+        std::ssize(elements), [&](std::int64_t e) { return counts(elements[static_cast<std::size_t>(e)]); },
+        [&](std::int64_t number, std::int64_t e) {
+          found[static_cast<std::size_t>(number)] =
+              canonical_corners(elements[static_cast<std::size_t>(e)], reversed[static_cast<std::size_t>(e)] != 0);
+        },
+        workers);
+    found.resize(static_cast<std::size_t>(count));
+    return found;
+  }
+
+  template <class Position, class Visit>
+  void for_quotients(const Position& position, const Visit& visit) const {
+    for (const Triangle& corners : triangles_) {
+      visit(shape_quotient(points_of(corners, position)));
+    }
+    for (const MixedElement& element : mixed_) {
+      with_kind(element, [&](const auto& corners) { visit(shape_quotient(points_of(corners, position))); });
+    }
+  }
+
+  BulkVector<Triangle> triangles_;  ///< of a mesh of triangles
+  BulkVector<MixedElement> mixed_;  ///< of one with quadrilaterals
+};
+
+}  // namespace trismooth
