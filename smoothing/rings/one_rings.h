@@ -25,6 +25,9 @@ struct MixedRingNumbers {
   bool is_quadrilateral(int i) const { return opposites[i] != no_corner; }
 };
 
+/// What elements a ring has.
+enum class RingKind : std::uint8_t { triangles, quadrilaterals, both };
+
 /// A view of one-rings, in the numbering of the input or in another one (see input()). Vertices from size() on have no
 /// ring: they are fixed.
 struct RingView {
@@ -43,6 +46,17 @@ struct RingView {
   MixedRingNumbers mixed(std::int32_t vertex) const {
     const std::span<const std::int32_t> ring = (*this)[vertex];
     return {ring, opposites.subspan(static_cast<std::size_t>(offsets[vertex]), ring.size())};
+  }
+  /// Complexity: linear in the ring where there are quadrilaterals at all.
+  RingKind kind(std::int32_t vertex) const {
+    if (!has_quadrilaterals()) {
+      return RingKind::triangles;
+    }
+    const std::span<const std::int32_t> around = mixed(vertex).opposites;
+    const auto triangles = std::ranges::count(around, no_corner);
+    return triangles == std::ssize(around) ? RingKind::triangles
+           : triangles == 0                ? RingKind::quadrilaterals
+                                           : RingKind::both;
   }
   /// Calls visit(other) for all other vertices of the elements around a vertex: once for each neighbour, and for each
   /// quadrilateral.

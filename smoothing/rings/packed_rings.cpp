@@ -79,23 +79,25 @@ BulkVector<std::int32_t> grouped_by_colour(const Colouring& colouring, std::int3
   return order;
 }
 
-/// Sorts no more than a window of vertices, which ascend, by the sizes of their rings, and keeps the order of equal
-/// ones.
+/// Sorts no more than a window of vertices, which ascend, by the sizes of their rings and by their kinds, and keeps the
+/// order of equal ones.
 void sort_by_ring_size(const RingView& rings, std::span<std::int32_t> vertices) {
-  constexpr std::size_t usual_sizes = 64;
-  std::array<std::int32_t, usual_sizes + 1> places{};
+  constexpr std::size_t kinds = 3;
+  constexpr std::size_t usual_keys = 64 * kinds;
+  const auto key_of = [&](std::int32_t v) { return kinds * rings[v].size() + static_cast<std::size_t>(rings.kind(v)); };
+  std::array<std::int32_t, usual_keys + 1> places{};
   for (const std::int32_t v : vertices) {
-    const std::size_t size = rings[v].size();
-    if (size >= usual_sizes) {
-      std::ranges::sort(vertices, {}, [&](std::int32_t w) { return std::pair(rings[w].size(), w); });
+    const std::size_t key = key_of(v);
+    if (key >= usual_keys) {
+      std::ranges::sort(vertices, {}, [&](std::int32_t w) { return std::pair(key_of(w), w); });
       return;
     }
-    ++places[size + 1];
+    ++places[key + 1];
   }
   std::partial_sum(places.begin(), places.end(), places.begin());
   std::array<std::int32_t, window> sorted;
   for (const std::int32_t v : vertices) {
-    sorted[places[rings[v].size()]++] = v;
+    sorted[places[key_of(v)]++] = v;
   }
   std::copy_n(sorted.begin(), vertices.size(), vertices.begin());
 }

@@ -16,7 +16,7 @@ struct MeshPart;
 
 /// One-rings renumbered for the sweeps: free vertices first, grouped into batches whose vertices may be updated at the
 /// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last. Within
-/// windows of the curve vertices are sorted by ring size, so that the loops over rings are predictable.
+/// windows of the curve vertices are sorted by ring size and kind, so that the loops over rings are predictable.
 ///
 /// Those of a part of a mesh (MeshPart) have two batches in place of one: the vertices that other parts have as ghosts,
 /// then the others.

@@ -11,7 +11,7 @@ namespace trismooth {
 
 namespace {
 
-/// The ring in a lane.
+/// The vertices of the ring in a lane.
 template <class T, int Size>
 struct RingInLane {
   const RingLanes<T>& rings;
@@ -19,6 +19,15 @@ struct RingInLane {
 
   static constexpr int size() { return Size; }
   constexpr Point2<T> operator[](int i) const { return {rings.x[i][lane], rings.y[i][lane]}; }
+};
+
+template <class T, int Size>
+struct TrianglesInLane : RingInLane<T, Size> {};
+
+/// A MixedRing.
+template <class T, int Size>
+struct QuadrilateralsInLane : RingInLane<T, Size> {
+  static constexpr bool is_quadrilateral(int /*i*/) { return true; }
 };
 
 /// The method's update of one vertex, but for smart ones around inverted triangles: these take a second look.
@@ -40,27 +49,34 @@ template <class Update, class T, class Ring>
   rings.undecided[lane] = is_undecided ? T(1) : T(0);
 }
 
-template <class Update, class T, int Size>
+template <class Update, class Ring, class T>
 [[gnu::always_inline]] inline void update_rings(int count, RingLanes<T>& rings) {
   // To the end of a register: a rest would need code of its own.
   constexpr int at_once = RingLanes<T>::at_once;
   const int end = (count + at_once - 1) / at_once * at_once;
   for (int lane = 0; lane < end; ++lane) {
-    update_lane<Update>(lane, RingInLane<T, Size>{rings, lane}, rings);
+    update_lane<Update>(lane, Ring{{rings, lane}}, rings);
   }
 }
 
-template <class Update, class T, int... offset>
+template <class Update, template <class, int> class Ring, class T, int... offset>
 [[gnu::always_inline]] inline void update_rings_of(int size, int count, RingLanes<T>& rings,
                                                    std::integer_sequence<int, offset...> /*sizes*/) {
   constexpr int smallest = RingLanes<T>::smallest_ring;
-  (void)((size == smallest + offset && (update_rings<Update, T, smallest + offset>(count, rings), true)) || ...);
+  (void)((size == smallest + offset && (update_rings<Update, Ring<T, smallest + offset>>(count, rings), true)) || ...);
 }
 
 template <class Update, class T>
-[[gnu::always_inline]] inline void update_lanes(int size, int count, RingLanes<T>& rings) {
-  constexpr int sizes = RingLanes<T>::largest_ring - RingLanes<T>::smallest_ring + 1;
-  update_rings_of<Update>(size, count, rings, std::make_integer_sequence<int, sizes>());
+[[gnu::always_inline]] inline void update_lanes(int size, RingKind kind, int count, RingLanes<T>& rings) {
+  using Rings = RingLanes<T>;
+  constexpr int sizes = Rings::largest_ring - Rings::smallest_ring + 1;
+  constexpr int sizes_of_quadrilaterals = Rings::largest_of_quadrilaterals - Rings::smallest_ring + 1;
+  if (kind == RingKind::triangles) {
+    update_rings_of<Update, TrianglesInLane>(size, count, rings, std::make_integer_sequence<int, sizes>());
+  } else {
+    update_rings_of<Update, QuadrilateralsInLane>(size, count, rings,
+                                                  std::make_integer_sequence<int, sizes_of_quadrilaterals>());
+  }
 }
 
 }  // namespace

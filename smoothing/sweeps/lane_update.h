@@ -7,9 +7,10 @@
 
 namespace trismooth {
 
-/// Fills in what a method says of the first `count` lanes, whose rings have `ring_size` neighbours.
+/// Fills in what a method says of the first `count` lanes, whose rings have `ring_size` neighbours and are of that
+/// kind.
 template <class T>
-using LaneUpdate = void (*)(int ring_size, int count, RingLanes<T>& rings);
+using LaneUpdate = void (*)(int ring_size, RingKind kind, int count, RingLanes<T>& rings);
 
 /// That of a method by these instructions: the bits of its update(). Null for a method without lanes: see UpdateByRing.
 template <class T>

@@ -16,8 +16,9 @@
 
 namespace trismooth {
 
-/// What the mean-ratio method says of vertices in the lanes of registers of so many bytes.
-template <class T, bool shaped, bool is_last, int bytes>
+/// What the mean-ratio method says of vertices in the lanes of registers of so many bytes, in rings of triangles or of
+/// quadrilaterals: `Corner`.
+template <class T, bool shaped, bool is_last, int bytes, template <class> class Corner>
 class MeanRatioGroup {
  public:
   using Method = MeanRatio<T, shaped, is_last>;
@@ -50,7 +51,7 @@ class MeanRatioGroup {
   using V = Lanes<T, bytes>;
   using Mask = typename NewtonMove<V>::Mask;
   using Metric = typename Method::template Metric<V>;
-  using Sides = SidesInLanes<T, bytes, Metric>;
+  using Sides = SidesInLanes<T, bytes, Metric, Corner>;
 
   void find_group(const std::array<std::int32_t, lanes>& vertices, int begin, LaneMoves<T>& found) {
     take_sides(vertices);
@@ -78,26 +79,40 @@ class MeanRatioGroup {
   /// of the time. Inlined by force: GCC drops calls of a function that only prefetches, since it returns nothing and
   /// stores nothing.
   [[gnu::always_inline]] void prefetch_ring(std::int32_t v) const {
-    for (const std::int32_t neighbour : rings_[v]) {
-      __builtin_prefetch(&points_[neighbour]);
-      __builtin_prefetch(&inverse_areas_[neighbour]);
+    const auto ask_for = [this](std::span<const std::int32_t> vertices) {
+      for (const std::int32_t vertex : vertices) {
+        __builtin_prefetch(&points_[vertex]);
+        __builtin_prefetch(&inverse_areas_[vertex]);
+      }
+    };
+    ask_for(rings_[v]);
+    if constexpr (Sides::has_opposites) {
+      ask_for(rings_.mixed(v).opposites);
     }
   }
 
   void take_sides(const std::array<std::int32_t, lanes>& vertices) {
-    std::array<const std::int32_t*, lanes> rings{};
+    // What is neighbour i, or behind the neighbours an opposite vertex, in a lane.
+    std::array<const std::int32_t*, lanes> neighbours{};
+    std::array<const std::int32_t*, lanes> opposites{};
     for (int lane = 0; lane < lanes; ++lane) {
-      rings[lane] = rings_[vertices[lane]].data();
+      neighbours[lane] = rings_[vertices[lane]].data();
+      if constexpr (Sides::has_opposites) {
+        opposites[lane] = rings_.mixed(vertices[lane]).opposites.data() - ring_size_;
+      }
     }
+    const auto number = [&](int lane, int i) {
+      return Sides::has_opposites && i >= ring_size_ ? opposites[lane][i] : neighbours[lane][i];
+    };
     sides_.take(
         ring_size_, join([&](int lane) { return inverse_areas_[vertices[lane]]; }),
         [&](int i) -> typename Sides::Neighbour {
-          return {positions_of([&](int lane) { return rings[lane][i]; }),
-                  join([&](int lane) { return inverse_areas_[rings[lane][i]]; })};
+          return {positions_of([&](int lane) { return number(lane, i); }),
+                  join([&](int lane) { return inverse_areas_[number(lane, i)]; })};
         },
         [&](const auto& corner) {
           return metrics([&](int lane) {
-            return method_.metric(vertices[lane], corner.with([&](int i) { return rings[lane][i]; }));
+            return method_.metric(vertices[lane], corner.with([&](int i) { return number(lane, i); }));
           });
         });
   }
@@ -141,8 +156,14 @@ class MeanRatioGroup {
 template <class T, bool shaped, bool is_last, int bytes>
 [[gnu::flatten]] static void find_in_lanes(const MeanRatio<T, shaped, is_last>& method, const RingView& rings,
                                            const Point2<T>* points, std::span<const std::int32_t> vertices, int count,
-                                           int ring_size, LaneMoves<T>& found) {
-  MeanRatioGroup<T, shaped, is_last, bytes>(method, rings, points, ring_size).find(vertices, count, found);
+                                           int ring_size, RingKind kind, LaneMoves<T>& found) {
+  if (kind == RingKind::triangles) {
+    MeanRatioGroup<T, shaped, is_last, bytes, TriangleCorner>(method, rings, points, ring_size)
+        .find(vertices, count, found);
+  } else {
+    MeanRatioGroup<T, shaped, is_last, bytes, QuadrilateralCorner>(method, rings, points, ring_size)
+        .find(vertices, count, found);
+  }
 }
 
 }  // namespace trismooth

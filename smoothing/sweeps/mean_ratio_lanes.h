@@ -14,12 +14,12 @@
 
 namespace trismooth {
 
-/// Finds what the mean-ratio method says of the first `count` of `vertices`, whose rings are of one size; the others
-/// come next. The few that its energy alone does not decide are left undecided.
+/// Finds what the mean-ratio method says of the first `count` of `vertices`, whose rings are of one size and kind; the
+/// others come next. The few that its energy alone does not decide are left undecided.
 template <class T, bool shaped, bool is_last>
 using MeanRatioLanes = void (*)(const MeanRatio<T, shaped, is_last>& method, const RingView& rings,
                                 const Point2<T>* points, std::span<const std::int32_t> vertices, int count,
-                                int ring_size, LaneMoves<T>& found);
+                                int ring_size, RingKind kind, LaneMoves<T>& found);
 
 /// That by these instructions: the bits of the method's vertex_move().
 template <class T, bool shaped, bool is_last>
@@ -43,10 +43,12 @@ class SideBySide<T, MeanRatio<T, shaped, is_last>> {
   SideBySide(const Method& method, const RingView& rings, std::span<const Point2<T>> points)
       : method_(method), rings_(rings), points_(points) {}
 
-  static constexpr bool holds(int ring_size) { return ring_size <= largest_ring_in_lanes; }
+  static constexpr bool holds(int ring_size, RingKind kind) {
+    return ring_size <= largest_ring_in_lanes && kind != RingKind::both;
+  }
 
-  const LaneMoves<T>& moves(std::span<const std::int32_t> vertices, int count, int ring_size) {
-    find_(method_, rings_, points_.data(), vertices, count, ring_size, moves_);
+  const LaneMoves<T>& moves(std::span<const std::int32_t> vertices, int count, int ring_size, RingKind kind) {
+    find_(method_, rings_, points_.data(), vertices, count, ring_size, kind, moves_);
     return moves_;
   }
 

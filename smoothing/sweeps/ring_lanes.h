@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "trismooth/base/point2.h"
+#include "trismooth/smoothing/rings/one_rings.h"
 
 namespace trismooth {
 
@@ -27,12 +30,18 @@ struct RingLanes : LaneMoves<T> {
   static constexpr int at_once = 8;
   static constexpr int smallest_ring = 3;
   static constexpr int largest_ring = 9;
+  static constexpr int largest_of_quadrilaterals = 6;  ///< those have a vertex opposite for each neighbour
 
-  static constexpr bool holds(int ring_size) { return ring_size >= smallest_ring && ring_size <= largest_ring; }
+  static constexpr bool holds(int ring_size, RingKind kind) {
+    return ring_size >= smallest_ring && kind != RingKind::both &&
+           ring_size <= (kind == RingKind::triangles ? largest_ring : largest_of_quadrilaterals);
+  }
 
-  // x[i] of neighbour i in ring order. Lanes beyond those in use hold anything.
-  alignas(64) T x[largest_ring][lanes] = {};
-  alignas(64) T y[largest_ring][lanes] = {};
+  // x[i] of neighbour i in ring order; of quadrilaterals the vertices opposite are behind these. Lanes beyond those in
+  // use hold anything.
+  static constexpr int most_vertices = std::max(largest_ring, 2 * largest_of_quadrilaterals);
+  alignas(64) T x[most_vertices][lanes] = {};
+  alignas(64) T y[most_vertices][lanes] = {};
   alignas(64) T position_x[lanes] = {};
   alignas(64) T position_y[lanes] = {};
 };

@@ -78,16 +78,17 @@ class VertexList {
   std::array<std::int32_t, enough + word> vertices_;
 };
 
-/// Calls visit(vertices, ring_size) for the runs of vertices whose rings are of one size.
+/// Calls visit(vertices, ring_size, kind) for the runs of vertices whose rings are of one size and one kind.
 template <class Visit>
 void for_runs_of_one_size(const RingView& rings, std::span<const std::int32_t> vertices, const Visit& visit) {
   for (std::size_t begin = 0; begin < vertices.size();) {
     const std::size_t size = rings[vertices[begin]].size();
+    const RingKind kind = rings.kind(vertices[begin]);
     std::size_t end = begin + 1;
-    while (end < vertices.size() && rings[vertices[end]].size() == size) {
+    while (end < vertices.size() && rings[vertices[end]].size() == size && rings.kind(vertices[end]) == kind) {
       ++end;
     }
-    visit(vertices.subspan(begin, end - begin), static_cast<int>(size));
+    visit(vertices.subspan(begin, end - begin), static_cast<int>(size), kind);
     begin = end;
   }
 }

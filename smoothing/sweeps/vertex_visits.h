@@ -23,27 +23,34 @@ class SideBySide {
   SideBySide(const Method& /*method*/, const RingView& rings, std::span<const Point2<T>> points)
       : rings_(rings), points_(points) {}
 
-  static constexpr bool holds(int ring_size) { return RingLanes<T>::holds(ring_size); }
+  static constexpr bool holds(int ring_size, RingKind kind) { return RingLanes<T>::holds(ring_size, kind); }
 
   /// Of the first `count` of `vertices`; the others come next.
-  const LaneMoves<T>& moves(std::span<const std::int32_t> vertices, int count, int ring_size) {
+  const LaneMoves<T>& moves(std::span<const std::int32_t> vertices, int count, int ring_size, RingKind kind) {
     for (int lane = 0; lane < count; ++lane) {
-      take(vertices[lane], ring_size, lane);
+      const std::int32_t v = vertices[lane];
+      take(rings_[v].data(), ring_size, 0, lane);
+      if (needs_opposites && kind == RingKind::quadrilaterals) {
+        take(rings_.mixed(v).opposites.data(), ring_size, ring_size, lane);
+      }
+      lanes_.position_x[lane] = points_[v].x;
+      lanes_.position_y[lane] = points_[v].y;
     }
-    update_(ring_size, count, lanes_);
+    update_(ring_size, kind, count, lanes_);
     return lanes_;
   }
 
  private:
-  void take(std::int32_t v, int ring_size, int lane) {
-    const std::int32_t* const ring = rings_[v].data();
-    for (int i = 0; i < ring_size; ++i) {
-      const Point2<T> neighbour = points_[ring[i]];
-      lanes_.x[i][lane] = neighbour.x;
-      lanes_.y[i][lane] = neighbour.y;
+  /// Who only goes to a mean of the neighbours looks at no element.
+  static constexpr bool needs_opposites = Method::is_smart;
+
+  /// Takes so many vertices as those of the ring from `place` on.
+  void take(const std::int32_t* vertices, int count, int place, int lane) {
+    for (int i = 0; i < count; ++i) {
+      const Point2<T> point = points_[vertices[i]];
+      lanes_.x[place + i][lane] = point.x;
+      lanes_.y[place + i][lane] = point.y;
     }
-    lanes_.position_x[lane] = points_[v].x;
-    lanes_.position_y[lane] = points_[v].y;
   }
 
   RingLanes<T> lanes_;
@@ -58,31 +65,30 @@ class SideBySide<T, ProposedUpdate<T>> {
  public:
   SideBySide(const ProposedUpdate<T>& /*method*/, const RingView& /*rings*/, std::span<const Point2<T>> /*points*/) {}
 
-  static constexpr bool holds(int /*ring_size*/) { return false; }
+  static constexpr bool holds(int /*ring_size*/, RingKind /*kind*/) { return false; }
 };
 
-/// Visits of a method to vertices, many of them side by side. What lanes cannot tell is asked for alone, as are all
-/// vertices of a mesh with quadrilaterals.
+/// Visits of a method to vertices, many of them side by side. What lanes cannot tell is asked for alone.
 template <class T, class Method>
 class VertexVisits {
  public:
   VertexVisits(const Method& method, const RingView& rings, std::span<const Point2<T>> points)
       : side_by_side_(method, rings, points), method_(method), rings_(rings), points_(points) {}
 
-  /// Calls settle(v, target, squares) for those of `vertices`, whose rings are of one size, that move. They share no
-  /// edge, or settle() leaves the points as they are.
+  /// Calls settle(v, target, squares) for those of `vertices`, whose rings are of one size and kind, that move. They
+  /// share no element, or settle() leaves the points as they are.
   template <class Settle>
-  void visit(std::span<const std::int32_t> vertices, int ring_size, const Settle& settle) {
-    if (rings_.has_quadrilaterals() || !side_by_side_.holds(ring_size)) {
+  void visit(std::span<const std::int32_t> vertices, int ring_size, RingKind kind, const Settle& settle) {
+    if (!side_by_side_.holds(ring_size, kind)) {
       for (const std::int32_t v : vertices) {
         visit_alone(v, settle);
       }
       return;
     }
-    if constexpr (requires { side_by_side_.moves(vertices, 1, ring_size); }) {
+    if constexpr (requires { side_by_side_.moves(vertices, 1, ring_size, kind); }) {
       while (!vertices.empty()) {
         const int count = static_cast<int>(std::min<std::size_t>(LaneMoves<T>::lanes, vertices.size()));
-        visit_in_lanes(vertices, count, ring_size, settle);
+        visit_in_lanes(vertices, count, ring_size, kind, settle);
         vertices = vertices.subspan(static_cast<std::size_t>(count));
       }
     }
@@ -90,8 +96,9 @@ class VertexVisits {
 
  private:
   template <class Settle>
-  void visit_in_lanes(std::span<const std::int32_t> vertices, int count, int ring_size, const Settle& settle) {
-    const LaneMoves<T>& found = side_by_side_.moves(vertices, count, ring_size);
+  void visit_in_lanes(std::span<const std::int32_t> vertices, int count, int ring_size, RingKind kind,
+                      const Settle& settle) {
+    const LaneMoves<T>& found = side_by_side_.moves(vertices, count, ring_size, kind);
     // Who moves is listed first, without branches: about half of them would be guessed wrong.
     std::array<int, LaneMoves<T>::lanes> moving{};
     int movers = 0;

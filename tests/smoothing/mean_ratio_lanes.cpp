@@ -31,17 +31,30 @@ struct PlainRing {
   std::int32_t number(int i) const { return numbers[static_cast<std::size_t>(i)]; }
 };
 
+/// That of quadrilaterals.
+template <class T>
+struct PlainMixedRing {
+  std::span<const Point2<T>> points;
+  trismooth::MixedRingNumbers numbers;
+
+  int size() const { return numbers.size(); }
+  Point2<T> operator[](int i) const { return points[static_cast<std::size_t>(number(i))]; }
+  std::int32_t number(int i) const { return numbers[i]; }
+  bool is_quadrilateral(int i) const { return numbers.is_quadrilateral(i); }
+};
+
 /// Vertices with rings of their own: star-shaped around them as a rule, so that most have an energy.
 template <class T>
 struct Stars {
   std::vector<std::int64_t> offsets{0};
   std::vector<std::int32_t> neighbours;
+  std::vector<std::int32_t> opposites;  ///< of quadrilaterals
   std::vector<Point2<T>> points;
   std::vector<T> inverse_areas;
   std::vector<T> largest_shares;
   std::vector<trismooth::EdgeTensor<T>> edges;
 
-  Stars(std::int32_t count, int size, bool bounds_growth, test_meshes::Random& random) {
+  Stars(std::int32_t count, int size, RingKind kind, bool bounds_growth, test_meshes::Random& random) {
     const auto number = [&](double low, double high) { return static_cast<T>(random.between(low, high)); };
     const auto add = [&](Point2<T> point) {
       points.push_back(point);
@@ -53,17 +66,29 @@ struct Stars {
       largest_shares.push_back(bounds_growth ? number(0.1, 4) : std::numeric_limits<T>::infinity());
     }
     for (std::int32_t v = 0; v < count; ++v) {
-      for (int k = 0; k < size; ++k) {
-        const double angle = 2 * std::numbers::pi * (k + random.between(0, 0.6)) / size;
-        const double radius = random.between(0.6, 1.6);
-        neighbours.push_back(static_cast<std::int32_t>(points.size()));
+      const auto add_around = [&](double turn, double scale) {
+        const double angle = 2 * std::numbers::pi * (turn + random.between(0, 0.6)) / size;
+        const double radius = scale * random.between(0.6, 1.6);
         add({static_cast<T>(radius * std::cos(angle)), static_cast<T>(radius * std::sin(angle))});
+        return static_cast<std::int32_t>(points.size()) - 1;
+      };
+      for (int k = 0; k < size; ++k) {
+        neighbours.push_back(add_around(k, 1));
+      }
+      for (int k = 0; k < size && kind == RingKind::quadrilaterals; ++k) {
+        opposites.push_back(add_around(k + 0.5, 1.5));
       }
       offsets.push_back(static_cast<std::int64_t>(neighbours.size()));
     }
   }
 
-  RingView rings() const { return {offsets, neighbours, {}}; }
+  RingView rings() const { return {offsets, neighbours, {}, opposites}; }
+
+  template <class Method>
+  VertexMove<T> alone(const Method& method, std::int32_t v) const {
+    return rings().has_quadrilaterals() ? method.vertex_move(v, points[v], PlainMixedRing<T>{points, rings().mixed(v)})
+                                        : method.vertex_move(v, points[v], PlainRing<T>{points, rings()[v]});
+  }
 };
 
 TEMPLATE_TEST_CASE(
@@ -78,7 +103,8 @@ TEMPLATE_TEST_CASE(
   int stayed = 0;
   for (int i = 0; i < (is_sanitized ? 400 : 4000); ++i) {
     const int size = 3 + i % 16;
-    const Stars<T> stars(count, size, i % 4 == 0, random);
+    const RingKind kind = i % 8 < 4 ? RingKind::triangles : RingKind::quadrilaterals;
+    const Stars<T> stars(count, size, kind, i % 4 == 0, random);
     const MeanRatioScales<T> scales{static_cast<T>(random.between(0, 0.4)), 1 + i % 5,
                                     i % 7 == 0 ? static_cast<T>(random.between(0, 0.2)) : T(0)};
     const MeanRatioStep<T> step{i % 3 == 0 ? T(1.5) : T(1.8), static_cast<T>(3e-4), i % 2 == 0};
@@ -91,13 +117,13 @@ TEMPLATE_TEST_CASE(
           std::vector<std::int32_t> vertices(static_cast<std::size_t>(1 + i % count));
           std::iota(vertices.begin(), vertices.end(), 0);
           std::vector<VertexMove<T>> found(vertices.size());
-          visits.visit(vertices, size, [&](std::int32_t v, Point2<T> target, T squares) {
+          visits.visit(vertices, size, kind, [&](std::int32_t v, Point2<T> target, T squares) {
             REQUIRE(!found[v].move.moved);
             found[v] = {{target, true}, squares};
           });
           for (const std::int32_t v : vertices) {
             CAPTURE(i, size, v);
-            const VertexMove<T> alone = method.vertex_move(v, stars.points[v], PlainRing<T>{stars.points, rings[v]});
+            const VertexMove<T> alone = stars.alone(method, v);
             REQUIRE(found[v].move.moved == alone.move.moved);
             REQUIRE((!alone.move.moved || found[v].move.position == alone.move.position));
             REQUIRE((!alone.move.moved || found[v].squares == alone.squares));

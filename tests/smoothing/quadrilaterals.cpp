@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "trismooth/base/machine/instruction_set.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/quality/quality.h"
@@ -21,6 +22,7 @@
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
+#include "support/limited_instructions.h"
 #include "support/mixed_meshes.h"
 #include "support/naive_smoothing.h"
 #include "support/refusal.h"
@@ -298,7 +300,7 @@ TEST_CASE("no mesh of quadrilaterals comes back worse than it went in") {
   CHECK(inverted > 100);
 }
 
-TEST_CASE("quadrilaterals come out with the same bits by any number of threads, and however they are listed") {
+TEST_CASE("quadrilaterals come out with the same bits by any threads and instructions, however they are listed") {
   const std::vector<SmoothingOptions> ways = all_ways();
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const MixedMesh mesh = mixed_meshes::random_mesh(seed);
@@ -313,11 +315,14 @@ TEST_CASE("quadrilaterals come out with the same bits by any number of threads, 
       REQUIRE(same_bits(smoothed(mesh, options), expected));
     }
   }
-  const MixedMesh large(150, 140, 0.4, 3);
-  for (SmoothingOptions options : ways) {
-    const Numbers expected = smoothed(large, options);
-    options.threads = 3;
-    REQUIRE(same_bits(smoothed(large, options), expected));
+  for (const std::uint64_t thirds : {0U, 1U}) {
+    const MixedMesh large(150, 140, 0.4, 3, thirds);
+    for (SmoothingOptions options : ways) {
+      const Numbers expected = smoothed(large, options);
+      options.threads = 3;
+      const LimitedInstructions limited(InstructionSet::baseline);
+      REQUIRE(same_bits(smoothed(large, options), expected));
+    }
   }
 }
 

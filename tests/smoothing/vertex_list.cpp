@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "catch.h"
@@ -50,7 +51,19 @@ TEST_CASE("runs of one ring size follow each other, and none could be longer") {
       offsets.push_back(offsets.back() + 3 + random.below(2));
     }
     const std::vector<std::int32_t> neighbours(static_cast<std::size_t>(offsets.back()));
-    const trismooth::RingView rings{offsets, neighbours, {}};
+    // Of each vertex one of three kinds, or of all of them triangles.
+    std::vector<std::int32_t> opposites(random.below(2) == 0 ? 0 : neighbours.size());
+    std::vector<trismooth::RingKind> kinds(100, trismooth::RingKind::triangles);
+    for (std::size_t v = 0; v < 100 && !opposites.empty(); ++v) {
+      kinds[v] = static_cast<trismooth::RingKind>(random.below(3));
+      for (auto i = static_cast<std::size_t>(offsets[v]); i < static_cast<std::size_t>(offsets[v + 1]); ++i) {
+        const bool is_first = std::cmp_equal(i, offsets[v]);
+        const bool is_triangle =
+            kinds[v] == trismooth::RingKind::triangles || (kinds[v] == trismooth::RingKind::both && is_first);
+        opposites[i] = is_triangle ? trismooth::no_corner : 5;
+      }
+    }
+    const trismooth::RingView rings{offsets, neighbours, {}, opposites};
     std::vector<std::int32_t> vertices;
     for (std::int32_t v = 0; v < 100; ++v) {
       if (random.below(3) > 0) {
@@ -58,14 +71,17 @@ TEST_CASE("runs of one ring size follow each other, and none could be longer") {
       }
     }
     std::vector<std::int32_t> found;
-    int size_before = 0;
-    trismooth::for_runs_of_one_size(rings, vertices, [&](std::span<const std::int32_t> run, int ring_size) {
-      REQUIRE(!run.empty());
-      REQUIRE(ring_size != size_before);
-      size_before = ring_size;
-      REQUIRE(std::ranges::all_of(run, [&](std::int32_t v) { return std::ssize(rings[v]) == ring_size; }));
-      found.insert(found.end(), run.begin(), run.end());
-    });
+    std::pair<int, trismooth::RingKind> before{0, trismooth::RingKind::triangles};
+    trismooth::for_runs_of_one_size(
+        rings, vertices, [&](std::span<const std::int32_t> run, int ring_size, trismooth::RingKind kind) {
+          REQUIRE(!run.empty());
+          REQUIRE(std::pair(ring_size, kind) != before);
+          before = {ring_size, kind};
+          REQUIRE(std::ranges::all_of(run, [&](std::int32_t v) {
+            return std::ssize(rings[v]) == ring_size && kinds[static_cast<std::size_t>(v)] == kind;
+          }));
+          found.insert(found.end(), run.begin(), run.end());
+        });
     REQUIRE(found == vertices);
   }
 }

@@ -43,36 +43,57 @@ std::vector<Point2<T>> star(int size, int kind, test_meshes::Random& random) {
   return ring;
 }
 
-/// Vertices with rings of their own, all of one size.
+/// A ring of quadrilaterals.
+template <class T>
+struct QuadrilateralRing {
+  std::vector<Point2<T>> positions;  ///< of the neighbours, then of the vertices opposite
+
+  int size() const { return static_cast<int>(positions.size() / 2); }
+  Point2<T> operator[](int i) const { return positions[static_cast<std::size_t>(i)]; }
+  static bool is_quadrilateral(int /*i*/) { return true; }
+};
+
+/// Vertices with rings of their own, all of one size and kind.
 template <class T>
 struct Stars {
   std::vector<std::int64_t> offsets{0};
   std::vector<std::int32_t> neighbours;
+  std::vector<std::int32_t> opposites;  ///< of quadrilaterals
   std::vector<Point2<T>> points;
 
-  Stars(int count, int size, test_meshes::Random& random) {
+  Stars(int count, int size, RingKind kind, test_meshes::Random& random) {
     for (int v = 0; v < count; ++v) {
       const bool is_centre = random.below(4) == 0;
       points.push_back({is_centre ? T(0) : static_cast<T>(random.between(-0.3, 0.3)),
                         is_centre ? T(0) : static_cast<T>(random.between(-0.3, 0.3))});
     }
     for (int v = 0; v < count; ++v) {
-      for (const Point2<T> point : star<T>(size, random.below(6), random)) {
+      const int difficulty = random.below(6);
+      for (const Point2<T> point : star<T>(size, difficulty, random)) {
         neighbours.push_back(static_cast<std::int32_t>(points.size()));
         points.push_back(point);
+      }
+      for (int k = 0; k < size && kind == RingKind::quadrilaterals; ++k) {
+        // The far corner of a parallelogram, or nearly.
+        const auto first = neighbours.end() - size;
+        const Point2<T> a = points[first[k]];
+        const Point2<T> b = points[first[(k + 1) % size]];
+        const auto stretch = static_cast<T>(random.between(0.7, 1.2));
+        opposites.push_back(static_cast<std::int32_t>(points.size()));
+        points.push_back({stretch * (a.x + b.x), stretch * (a.y + b.y)});
       }
       offsets.push_back(static_cast<std::int64_t>(neighbours.size()));
     }
   }
-  RingView rings() const { return {offsets, neighbours, {}}; }
+  RingView rings() const { return {offsets, neighbours, {}, opposites}; }
   /// What the method says of a vertex by itself.
   template <class Method>
   VertexMove<T> alone(const Method& method, std::int32_t v) const {
-    random_rings::RingOf<T> ring;
-    for (const std::int32_t neighbour : rings()[v]) {
-      ring.positions.push_back(points[neighbour]);
-    }
-    return trismooth::update_over(method, v, points[v], ring);
+    const auto of_ring = [&](auto ring) {
+      rings().for_vertices_around(v, [&](std::int32_t other) { ring.positions.push_back(points[other]); });
+      return trismooth::update_over(method, v, points[v], ring);
+    };
+    return opposites.empty() ? of_ring(random_rings::RingOf<T>{}) : of_ring(QuadrilateralRing<T>{});
   }
 };
 
@@ -87,13 +108,14 @@ void check_visits(const Update& method) {
     for (int trial = 0; trial < 1500; ++trial) {
       const int size = 3 + trial % 10;
       const int count = 1 + random.below(70);
-      const Stars<T> stars(count, size, random);
+      const RingKind kind = trial % 3 == 0 ? RingKind::quadrilaterals : RingKind::triangles;
+      const Stars<T> stars(count, size, kind, random);
       const RingView rings = stars.rings();
       std::vector<std::int32_t> vertices(static_cast<std::size_t>(count));
       std::iota(vertices.begin(), vertices.end(), 0);
       std::vector<VertexMove<T>> found(vertices.size());
       trismooth::VertexVisits<T, Update> visits(method, rings, stars.points);
-      visits.visit(vertices, size, [&](std::int32_t v, Point2<T> target, T squares) {
+      visits.visit(vertices, size, kind, [&](std::int32_t v, Point2<T> target, T squares) {
         REQUIRE(!found[v].move.moved);
         found[v] = {{target, true}, squares};
       });
