@@ -19,7 +19,8 @@ void IndexView::require_whole_triangles(std::size_t numbers) {
 
 void IndexView::check() const {
   if (columns_ != 3 && columns_ != 4) {
-    throw std::invalid_argument("triangles: " + std::to_string(columns_) + " vertex numbers each, expected three");
+    throw std::invalid_argument("triangles: " + std::to_string(columns_) +
+                                " vertex numbers each, expected three or four");
   }
   if (first_ == nullptr && size_ > 0) {
     throw std::invalid_argument("triangles: a null pointer for " + std::to_string(size_) + " triangles");
@@ -66,7 +67,7 @@ std::span<const Corners> IndexView::listed(std::int64_t vertex_count, std::vecto
 std::span<const Triangle> IndexView::triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const {
   if (columns_ != 3) {
     throw std::invalid_argument(
-        "triangles: four vertex numbers each, expected three (quadrilaterals are for quality() and smooth() alone)");
+        "triangles: four vertex numbers each, expected three (quadrilaterals are for quality(), smooth() and plans)");
   }
   return listed(vertex_count, converted);
 }

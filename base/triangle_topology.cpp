@@ -279,13 +279,19 @@ void check(std::int32_t vertex_count, Elements<Corners> elements) {
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const auto corners = std::span(elements[e]).first(static_cast<std::size_t>(corner_count(elements[e])));
     for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (stride<Corners> == 4 && corners[i] == no_corner) {
+        throw MeshError("element " + std::to_string(e) +
+                        " names vertex -1, which is no vertex: only the last of four numbers is -1, of a triangle");
+      }
       if (corners[i] < 0 || corners[i] >= vertex_count) {
         throw_no_such_vertex(static_cast<std::int64_t>(e), std::to_string(corners[i]), vertex_count,
                              element_name<Corners>);
       }
     }
     if (is_faulty(vertex_count, elements[e])) {
-      throw MeshError(std::string(element_name<Corners>) + " " + std::to_string(e) + " repeats a vertex");
+      const bool is_padded = corners.size() == 4 && corners[3] == corners[2];
+      throw MeshError(std::string(element_name<Corners>) + " " + std::to_string(e) + " repeats a vertex" +
+                      (is_padded ? "; of a triangle the last of four numbers is -1" : ""));
     }
   }
 }

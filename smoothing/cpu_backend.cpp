@@ -528,7 +528,9 @@ class CpuBackend final : public Backend {
                                                   const SmoothingOptions& options) const override {
     require_available(options);
     if (options.untangle == Untangle::on) {
-      throw std::invalid_argument("untangling is of triangles alone, and there are quadrilaterals: without it");
+      throw std::invalid_argument(
+          "untangling is of triangles alone, and there are quadrilaterals; smoothing by method 'laplacian' first mends "
+          "many");
     }
     SmoothingOptions of_sweeps = options;
     of_sweeps.untangle = Untangle::off;

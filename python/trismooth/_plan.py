@@ -102,7 +102,7 @@ class Plan:
         constraints = Constraints(regions, fixed, other_cells, size, lines, line_tags, links)
         self._notes = options_without_effect(options, size)
         self._on_device = _arrays.device_of(triangles) is not None
-        if isinstance(n_points, bool) or not hasattr(n_points, "__index__") or not 0 <= n_points < 2**31:
+        if isinstance(n_points, bool) or not isinstance(n_points, (int, np.integer)) or not 0 <= n_points < 2**31:
             raise ValueError(f"n_points: the number of vertices is needed, not {n_points!r}")
         self._plan: Any
         if self._on_device:

@@ -27,7 +27,7 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     if not found:
         return []
     if outcome.quadrilaterals > 0:
-        why = "quadrilaterals are not untangled; a mesh of the triangles that they can be cut into is"
+        why = "meshes with quadrilaterals are not untangled; smoothing by method='laplacian' first mends many"
     elif outcome.untangling is None:
         why = "nothing untangled the mesh; untangle=True does"
     else:

@@ -28,7 +28,7 @@ AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const MixedEleme
   mesh_.components = connectivity_.components().components;
   if (constraints.slide.along != Slide::off || constraints.slide.names_vertices()) {
     throw std::invalid_argument(
-        "vertices slide along the lines of triangles, and there are quadrilaterals: without sliding");
+        "vertices slide along the lines of triangles, and there are quadrilaterals: leave sliding off");
   }
 }
 

@@ -144,11 +144,11 @@ TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
   CHECK(refusal([&] {
           const Eigen::MatrixXi quads = Eigen::MatrixXi::Zero(2, 4);
           smooth(trismooth::xy_points(xy), trismooth::triangle_rows(quads));
-        }) == "mesh: element 0 repeats a vertex");
+        }) == "mesh: element 0 repeats a vertex; of a triangle the last of four numbers is -1");
   CHECK(refusal([&] {
           const Eigen::MatrixXi fives = Eigen::MatrixXi::Zero(2, 5);
           smooth(trismooth::xy_points(xy), trismooth::triangle_rows(fives));
-        }) == "argument: triangles: 5 vertex numbers each, expected three");
+        }) == "argument: triangles: 5 vertex numbers each, expected three or four");
   CHECK(xy == before);
   CHECK(refusal([] { static_cast<void>(trismooth::plan(std::int64_t{1} << 31, std::span<const int>{})); }) ==
         "mesh: more than 2147483647 vertices");

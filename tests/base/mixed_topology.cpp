@@ -266,7 +266,8 @@ TEST_CASE("elements that are none are refused, each by its number") {
   };
   CHECK(message({{0, 1, 2, no_corner}, {0, 2, 3, 4}}) == "none");
   CHECK(message({{0, 1, 2, 3}, {0, 1, 2, 6}}) == "element 1 names vertex 6; vertices are numbered from 0 to 5");
-  CHECK(message({{0, 1, no_corner, 3}}) == "element 0 names vertex -1; vertices are numbered from 0 to 5");
+  CHECK(message({{0, 1, no_corner, 3}}) ==
+        "element 0 names vertex -1, which is no vertex: only the last of four numbers is -1, of a triangle");
   CHECK(message({{0, 1, 2, -2}}) == "element 0 names vertex -2; vertices are numbered from 0 to 5");
   CHECK(message({{0, 1, 2, 3}, {3, 4, 5, 3}}) == "element 1 repeats a vertex");
   CHECK(message({{0, 1, 0, 3}}) == "element 0 repeats a vertex");

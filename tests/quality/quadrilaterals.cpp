@@ -393,7 +393,8 @@ TEST_CASE("quadrilaterals that are no mesh are refused by their numbers") {
     return refusal([&] { static_cast<void>(quality(points, elements)); });
   };
   CHECK(refused({{0, 1, 2, 4}}) == "mesh: element 0 names vertex 4; vertices are numbered from 0 to 3");
-  CHECK(refused({{0, 1, 2, 3}, {0, 1, 2, 2}}) == "mesh: element 1 repeats a vertex");
+  CHECK(refused({{0, 1, 2, 3}, {0, 1, 2, 2}}) ==
+        "mesh: element 1 repeats a vertex; of a triangle the last of four numbers is -1");
   std::vector<double> too_few(1);
   ElementValues places;
   places[0] = too_few;

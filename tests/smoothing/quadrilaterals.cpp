@@ -517,11 +517,14 @@ TEST_CASE("what quadrilaterals cannot have is refused, and nothing moves") {
   };
   SmoothingOptions options = with(Method::mean_ratio);
   options.untangle = Untangle::on;
-  CHECK(refused(options) == "argument: untangling is of triangles alone, and there are quadrilaterals: without it");
+  CHECK(refused(options) ==
+        "argument: untangling is of triangles alone, and there are quadrilaterals; smoothing by method 'laplacian' "
+        "first mends "
+        "many");
   Constraints sliding;
   sliding.slide.along = Slide::straight;
   CHECK(refused(with(Method::smart), sliding) ==
-        "argument: vertices slide along the lines of triangles, and there are quadrilaterals: without sliding");
+        "argument: vertices slide along the lines of triangles, and there are quadrilaterals: leave sliding off");
   const std::vector<std::int32_t> regions(3);
   Constraints wrong;
   wrong.regions = regions;
@@ -535,9 +538,17 @@ TEST_CASE("what quadrilaterals cannot have is refused, and nothing moves") {
   std::swap(faulty.elements[4][0], faulty.elements[4][2]);
   faulty.elements[4][0] = faulty.elements[4][1];
   CHECK(refusal([&] { smooth(xy_points(xy), faulty.elements); }) == "mesh: element 4 repeats a vertex");
+  faulty.elements[4] = {0, 1, 8, 8};
+  CHECK(refusal([&] { smooth(xy_points(xy), faulty.elements); }) ==
+        "mesh: element 4 repeats a vertex; of a triangle the last of four numbers is -1");
+  for (const auto& wrong_place : {mixed_meshes::Element{0, -1, 8, 7}, {0, 1, -1, -1}}) {
+    faulty.elements[4] = wrong_place;
+    CHECK(refusal([&] { smooth(xy_points(xy), faulty.elements); }) ==
+          "mesh: element 4 names vertex -1, which is no vertex: only the last of four numbers is -1, of a triangle");
+  }
   CHECK(refusal([&] { const MovingMesh moving(xy_points(xy), mesh.elements); }) ==
-        "argument: triangles: four vertex numbers each, expected three (quadrilaterals are for quality() and smooth() "
-        "alone)");
+        "argument: triangles: four vertex numbers each, expected three (quadrilaterals are for quality(), smooth() and "
+        "plans)");
 }
 
 }  // namespace trismooth::smooth_quadrilaterals_test
