@@ -88,6 +88,20 @@ def test_constraints_hold_vertices_of_quadrilaterals():
     assert not stays[np.arange(130) % 13 == 5][1:-1].all()
 
 
+def test_vertices_of_lines_and_links_are_held():
+    points, elements = mixed_mesh()
+    for named in ({"lines": [[30, 31]]}, {"links": [[30, 31]]}):
+        result = trismooth.smooth(points, elements, method="mean-ratio", **named)
+        stays = (result.points == points).all(axis=1)
+        assert stays[[30, 31]].all() and not stays[[29, 32]].any()
+
+
+def test_a_corner_in_line_is_told_of():
+    points = [[0, 0], [1, 0], [2, 0], [1, 1.0]]
+    with pytest.warns(trismooth.MeshWarning, match="1 element without area or with a corner in line"):
+        assert trismooth.smooth(points, [[0, 1, 2, 3]]).degenerate == 1
+
+
 def test_copies_of_quadrilaterals_count_once_and_are_told_of():
     points, elements = mixed_mesh()
     quadrilaterals = elements[elements[:, 3] >= 0]
@@ -115,7 +129,6 @@ def test_what_quadrilaterals_cannot_have_is_refused_by_name():
     refused = (
         ({"untangle": True}, "^untangle: untangling is of triangles alone"),
         ({"slide": "straight"}, "^slide: vertices slide along the lines of triangles"),
-        ({"lines": [[20, 21]]}, "^slide: vertices slide along the lines of triangles"),
         ({"regions": [1, 2]}, "^regions: "),
     )
     for options, said in refused:

@@ -22,12 +22,13 @@ NOT_MENDED = "the untangling could not mend more, and triangles that are held at
 def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     """What to say of elements that are not valid in the result: a sentence, or none."""
     name = "triangle" if outcome.quadrilaterals == 0 else "element"
-    kinds = ((outcome.inverted, f"inverted {name}{{}}"), (outcome.degenerate, f"{name}{{}} without area"))
+    flat = "without area" if outcome.quadrilaterals == 0 else "without area or with a corner in line"
+    kinds = ((outcome.inverted, f"inverted {name}{{}}"), (outcome.degenerate, f"{name}{{}} {flat}"))
     found = [f"{count:,} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]
     if not found:
         return []
     if outcome.quadrilaterals > 0:
-        why = "meshes with quadrilaterals are not untangled; smoothing by method='laplacian' first mends many"
+        why = "meshes with quadrilaterals are not untangled; smoothing by method='laplacian' first mends many, but where all corners are held"
     elif outcome.untangling is None:
         why = "nothing untangled the mesh; untangle=True does"
     else:

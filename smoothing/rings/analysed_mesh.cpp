@@ -26,7 +26,7 @@ AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const MixedEleme
     : connectivity_(vertex_count, elements, workers) {
   mesh_.fixed = connectivity_.fixed_vertices(elements, constraints, workers);
   mesh_.components = connectivity_.components().components;
-  if (constraints.slide.along != Slide::off || constraints.slide.names_vertices()) {
+  if (constraints.slide.along != Slide::off) {
     throw std::invalid_argument(
         "vertices slide along the lines of triangles, and there are quadrilaterals: leave sliding off");
   }
