@@ -186,7 +186,7 @@ constexpr auto element_of(const QuadrilateralCorner<RingSpoke<V>>& corner, const
                                    worth * pull.y,
                                    stiffness_of(metric, worth * ends),
                                    sides.inverse_area,
-                                   a.squared};
+                                   corner.next.squared};
   };
   const Point2<V> across = b.end - a.end;
   const V from2 = squared_length(sides.from_next);
