@@ -84,6 +84,7 @@ class Backend {
 
   /// prepare() of a mesh with quadrilaterals, for whole meshes without sliding, which are not untangled. Throws
   /// std::invalid_argument where the backend smooths triangles alone.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): who overrides it takes the mesh.
   virtual std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings /*mesh*/,
                                                           std::span<const MixedElement> /*elements*/,
                                                           std::span<const Point2<double>> /*local*/,

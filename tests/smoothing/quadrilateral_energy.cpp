@@ -130,7 +130,6 @@ TEST_CASE("the energy of quadrilaterals and its derivatives are those of its def
     const double largest = std::numeric_limits<double>::infinity();
     const MeanRatioScales<double> scales{scene.third_of_weight, scene.power, 0};
     MeanRatioTargets<double> targets{scene.inverse_areas.data(), &largest, &scales};
-    targets.edges = scene.edges.empty() ? nullptr : scene.edges.data();
     const auto check = [&](const auto& method) {
       const MeanRatioEnergy<double, 0> energy{scene.power, scene.third_of_weight, 0};
       const auto fetch = [&](int k) {
@@ -139,7 +138,7 @@ TEST_CASE("the energy of quadrilaterals and its derivatives are those of its def
           double inverse_area;
           std::int32_t number;
         };
-        return Node{scene[k], scene.inverse_areas[static_cast<std::size_t>(k + 1)], k + 1};
+        return Node{scene[k], scene.inverse_areas[static_cast<std::size_t>(k) + 1], k + 1};
       };
       const auto side = [&](const auto& corner) {
         return side_of<double>(corner, scene.inverse_areas[0],
@@ -176,6 +175,7 @@ TEST_CASE("the energy of quadrilaterals and its derivatives are those of its def
     if (scene.edges.empty()) {
       check(MeanRatio<double, false, true>(targets, {}));
     } else {
+      targets.edges = &scene.edges.front();
       check(MeanRatio<double, true, true>(targets, {}));
     }
   }

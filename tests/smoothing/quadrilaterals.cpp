@@ -370,10 +370,10 @@ TEST_CASE("squares that were jittered come back as squares") {
       // The border is straight again.
       MixedMesh inside = mesh;
       for (std::size_t v = 0; v < inside.points.size(); ++v) {
-        const auto column = static_cast<double>(v % 41);
-        const auto row = static_cast<double>(v / 41);
+        const std::size_t column = v % 41;
+        const std::size_t row = v / 41;
         if (column == 0 || column == 40 || row == 0 || row == 40) {
-          inside.points[v] = {column, row};
+          inside.points[v] = {static_cast<double>(column), static_cast<double>(row)};
         }
       }
       return smoothed(inside, with(method));
