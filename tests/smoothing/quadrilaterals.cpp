@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -92,32 +92,15 @@ std::map<std::int32_t, NaiveRing> naive_rings(const MixedMesh& mesh) {
   return rings;
 }
 
-/// The vertices of each colour: greedy in the order of their hashes, none with another one of its elements.
-std::vector<std::vector<std::int32_t>> naive_colours(const std::map<std::int32_t, NaiveRing>& rings) {
-  std::map<std::uint64_t, std::int32_t> order;
+/// The vertices of each colour, where every vertex of an element counts as a neighbour.
+std::vector<std::vector<std::int32_t>> naive_colours(std::size_t vertices,
+                                                     const std::map<std::int32_t, NaiveRing>& rings) {
+  naive::Rings others(vertices);
   for (const auto& [v, ring] : rings) {
-    order[naive::hashed(static_cast<std::uint64_t>(v))] = v;
+    others[static_cast<std::size_t>(v)] = ring.neighbours;
+    std::ranges::copy(ring.opposites, std::back_inserter(others[static_cast<std::size_t>(v)]));
   }
-  std::map<std::int32_t, std::size_t> colours;
-  std::vector<std::vector<std::int32_t>> classes;
-  for (const auto& [hash, v] : order) {
-    std::set<std::size_t> taken;
-    for (const auto& others : {rings.at(v).neighbours, rings.at(v).opposites}) {
-      for (const std::int32_t other : others) {
-        if (const auto found = colours.find(other); found != colours.end()) {
-          taken.insert(found->second);
-        }
-      }
-    }
-    std::size_t colour = 0;
-    while (taken.contains(colour)) {
-      ++colour;
-    }
-    colours[v] = colour;
-    classes.resize(std::max(classes.size(), colour + 1));
-    classes[colour].push_back(v);
-  }
-  return classes;
+  return naive::colour_classes(others);
 }
 
 /// What the smart rule compares of the elements of a vertex: the smallest quality and how many are inverted.
@@ -132,7 +115,7 @@ Numbers naively_smoothed(const MixedMesh& mesh, bool is_smart, Form form, int sw
   const std::map<std::int32_t, NaiveRing> rings = naive_rings(mesh);
   std::vector<std::vector<std::int32_t>> batches;
   if (form == Form::in_place) {
-    batches = naive_colours(rings);
+    batches = naive_colours(mesh.points.size(), rings);
   } else {
     batches.emplace_back();
     for (const auto& [v, ring] : rings) {
@@ -220,7 +203,7 @@ TEST_CASE("no two vertices of a quadrilateral move at the same time") {
         one_rings(topology, std::span<const MixedElement>(mesh.elements), topology.parity, topology.hold, workers);
     const Colouring colouring = colour_free_vertices(rings.view(), workers);
     const std::map<std::int32_t, NaiveRing> expected = naive_rings(mesh);
-    const auto classes = naive_colours(expected);
+    const auto classes = naive_colours(mesh.points.size(), expected);
     REQUIRE(colouring.count == std::ssize(classes));
     for (std::int32_t colour = 0; colour < colouring.count; ++colour) {
       for (const std::int32_t v : classes[static_cast<std::size_t>(colour)]) {
