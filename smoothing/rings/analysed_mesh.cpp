@@ -11,21 +11,25 @@
 
 namespace trismooth {
 
-AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
-                           const Constraints& constraints, Workers& workers)
-    : connectivity_(vertex_count, triangles, workers) {
-  mesh_.fixed = connectivity_.fixed_vertices(triangles, constraints, workers);
+template <class Corners>
+void AnalysedMesh::connect(std::int32_t vertex_count, std::span<const Corners> elements, const Constraints& constraints,
+                           Workers& workers) {
+  connectivity_ = MeshConnectivity(vertex_count, elements, workers);
+  mesh_.fixed = connectivity_.fixed_vertices(elements, constraints, workers);
   mesh_.components = connectivity_.components().components;
+}
+
+AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
+                           const Constraints& constraints, Workers& workers) {
+  connect(vertex_count, triangles, constraints, workers);
   if (constraints.slide.along != Slide::off) {
     slide_ = KeptConstraints({.regions = constraints.regions, .slide = constraints.slide});
   }
 }
 
 AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const MixedElement> elements,
-                           const Constraints& constraints, Workers& workers)
-    : connectivity_(vertex_count, elements, workers) {
-  mesh_.fixed = connectivity_.fixed_vertices(elements, constraints, workers);
-  mesh_.components = connectivity_.components().components;
+                           const Constraints& constraints, Workers& workers) {
+  connect(vertex_count, elements, constraints, workers);
   if (constraints.slide.along != Slide::off) {
     throw std::invalid_argument(
         "vertices slide along the lines of triangles, and there are quadrilaterals: leave sliding off");

@@ -65,7 +65,10 @@ class AnalysedMesh {
   }
 
  private:
-  /// What look_at() does to both kinds of elements.
+  /// What the constructors, and look_at(), do to both kinds of elements.
+  template <class Corners>
+  void connect(std::int32_t vertex_count, std::span<const Corners> elements, const Constraints& constraints,
+               Workers& workers);
   template <class Corners>
   bool look(std::span<const Point2<double>> local, std::span<const Corners> elements, Layers layers, Workers& workers);
 
