@@ -283,14 +283,14 @@ Input generated(Kind kind, std::int64_t vertices, std::uint64_t seed) {
 /// The mesh of a file, with what `trismooth smooth` would hold fixed in it.
 Input read(const std::filesystem::path& path) {
   const MeshDocument document = read_mesh(path);
-  PlanarMesh mesh = planar_mesh(document, path);
+  PlanarMesh mesh = planar_mesh(document, path, Quads::hold);
   Input input;
   input.name = path.filename().string();
   input.fixed = find_fixed_array(document, std::nullopt).flags;
   input.regions = find_regions(document, mesh).of_triangle;
   input.other_cells = std::move(mesh.in_other_cell);
   input.points.assign(mesh.points.begin(), mesh.points.end());
-  input.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  input.triangles.assign(mesh.elements.triangles().begin(), mesh.elements.triangles().end());
   return input;
 }
 

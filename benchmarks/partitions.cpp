@@ -36,7 +36,7 @@ struct Share {
 /// The triangles from `begin` to `end`, with their vertices.
 Share share_of(const PlanarMesh& mesh, std::size_t begin, std::size_t end) {
   Share share;
-  for (const Triangle& triangle : mesh.triangles.subspan(begin, end - begin)) {
+  for (const Triangle& triangle : mesh.elements.triangles().subspan(begin, end - begin)) {
     share.ids.insert(share.ids.end(), triangle.begin(), triangle.end());
   }
   std::ranges::sort(share.ids);
@@ -47,7 +47,7 @@ Share share_of(const PlanarMesh& mesh, std::size_t begin, std::size_t end) {
   const auto place = [&](std::int64_t id) {
     return static_cast<std::int32_t>(std::ranges::lower_bound(share.ids, id) - share.ids.begin());
   };
-  for (const auto& [a, b, c] : mesh.triangles.subspan(begin, end - begin)) {
+  for (const auto& [a, b, c] : mesh.elements.triangles().subspan(begin, end - begin)) {
     share.triangles.push_back({place(a), place(b), place(c)});
   }
   return share;
@@ -69,8 +69,8 @@ void measure(const std::string& name, const Share& share, Partition partition, c
 
 void compare(const std::filesystem::path& path, const mpi::Communicator& ranks) {
   const MeshDocument document = read_mesh(path);
-  const PlanarMesh mesh = planar_mesh(document, path);
-  const std::size_t count = mesh.triangles.size();
+  const PlanarMesh mesh = planar_mesh(document, path, Quads::hold);
+  const std::size_t count = mesh.elements.triangles().size();
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const auto size = static_cast<std::size_t>(ranks.size());
   const Share as_one_file = rank == 0 ? share_of(mesh, 0, count) : Share{};

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/local_frame.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
@@ -33,7 +33,7 @@ inline constexpr double largest_annotation = 1e30;
 /// behind their names. `cells` has the file's cell of every triangle of the view, ascending, and `copies` the cells
 /// that are these triangles again; other cells have 0. The area is in the file's unit. Values are at most 1e30 in
 /// amount, so that every format can hold them. Complexity: linear, and n log n in the copies.
-std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const TriangleView& view,
+std::vector<DataArray> metric_annotations(std::span<const Metric> metrics, const MeshView& view,
                                           std::span<const std::int32_t> cells, std::size_t cell_count, Workers& workers,
                                           std::string_view suffix = {}, std::span<const CellCopy> copies = {});
 
@@ -51,7 +51,7 @@ std::vector<std::string> annotations_in(const MeshDocument& document);
 std::vector<std::string> drop_annotations(MeshDocument& document);
 
 /// The size ratio (size_ratio.h) of each cell, as metric_annotations() has the others: of a strip the largest.
-DataArray size_ratio_annotation(const TriangleView& view, std::span<const std::int32_t> cells, std::size_t cell_count,
+DataArray size_ratio_annotation(const MeshView& view, std::span<const std::int32_t> cells, std::size_t cell_count,
                                 Workers& workers, std::string_view suffix = {}, std::span<const CellCopy> copies = {});
 
 /// What annotations are to show of triangles.

@@ -30,6 +30,7 @@ class CudaOrCpu final : public Backend {
                                             const SmoothingOptions& options) const override;
 
   /// By the CPU. Of a mesh that is large enough for CUDA the result's note says so.
+  bool takes_quadrilaterals() const override { return true; }
   std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
                                                   std::span<const Point2<double>> local,
                                                   const SmoothingOptions& options) const override;

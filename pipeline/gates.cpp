@@ -40,28 +40,64 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// The name of a kind of elements in gates of these alone.
+constexpr std::array<std::pair<std::string_view, ElementKind>, 2> kinds{
+    {{"triangle.", ElementKind::triangle}, {"quadrilateral.", ElementKind::quadrilateral}}};
+
+/// What a report has of some elements by the name: of all of them, or of those of one kind.
+template <class Quality>
+std::optional<double> find_value_of(std::string_view name, const Quality& quality) {
+  if (name == "inverted") {
+    return static_cast<double>(quality.inverted);
+  }
+  if (name == "degenerate") {
+    return static_cast<double>(quality.degenerate);
+  }
+  // The extreme angles of the mesh go by the metrics' own names: nobody means min_min_angle by another.
+  if (name == info(Metric::min_angle).name) {
+    return quality[Metric::min_angle].min;
+  }
+  if (name == info(Metric::max_angle).name) {
+    return quality[Metric::max_angle].max;
+  }
+  for (const auto& [prefix, statistic] : statistics) {
+    if (name.starts_with(prefix)) {
+      if (const MetricInfo* const metric = find_metric(name.substr(prefix.size()))) {
+        return quality[metric->metric].*statistic;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// What the report has of one kind by the name; no number where it has no such elements.
+std::optional<double> find_value_of(std::string_view name, const QualityReport& report, ElementKind kind) {
+  if (report.kinds.empty() && kind == ElementKind::triangle) {
+    return find_value_of(name, report);
+  }
+  const auto found = std::ranges::find(report.kinds, kind, &KindQuality::kind);
+  const std::optional<double> value = find_value_of(name, found == report.kinds.end() ? KindQuality{} : *found);
+  return value && found == report.kinds.end() ? not_known : value;
+}
+
 std::optional<double> find_value(std::string_view name, const QualityReport& report,
                                  const std::optional<QuadraticQuality>& quadratic) {
   if (name == "triangles") {
     return static_cast<double>(report.triangles);
   }
-  if (name == "inverted") {
-    return static_cast<double>(report.inverted);
-  }
-  if (name == "degenerate") {
-    return static_cast<double>(report.degenerate);
+  if (name == "quadrilaterals") {
+    return static_cast<double>(report.quadrilaterals);
   }
   if (name == invalid_quadratic) {
     return quadratic ? static_cast<double>(quadratic->invalid) : 0;
   }
-  // The extreme angles of the mesh go by the metrics' own names: nobody means min_min_angle by another.
-  if (name == info(Metric::min_angle).name) {
-    return report[Metric::min_angle].min;
+  for (const auto& [prefix, kind] : kinds) {
+    if (name.starts_with(prefix)) {
+      return find_value_of(name.substr(prefix.size()), report, kind);
+    }
   }
-  if (name == info(Metric::max_angle).name) {
-    return report[Metric::max_angle].max;
-  }
-  constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
   if (name == size_ratio_info.name) {
     return report.size_ratio ? report.size_ratio->max : not_known;
   }
@@ -70,12 +106,9 @@ std::optional<double> find_value(std::string_view name, const QualityReport& rep
       if (name.substr(prefix.size()) == size_ratio_info.name) {
         return report.size_ratio ? *report.size_ratio.*statistic : not_known;
       }
-      if (const auto metric = metric_named(name.substr(prefix.size()))) {
-        return report[*metric].*statistic;
-      }
     }
   }
-  return std::nullopt;
+  return find_value_of(name, report);
 }
 
 bool holds(double value, Comparison comparison, double bound) {
@@ -121,6 +154,7 @@ std::string distinct_number(double value, double bound) {
 
 std::vector<std::string> gate_names() {
   std::vector<std::string> names{"triangles",
+                                 "quadrilaterals",
                                  "inverted",
                                  "degenerate",
                                  std::string(invalid_quadratic),
@@ -129,11 +163,21 @@ std::vector<std::string> gate_names() {
                                  std::string(info(Metric::min_angle).name),
                                  std::string(info(Metric::max_angle).name),
                                  std::string(size_ratio_info.name)};
-  QualityReport with_all;
-  with_all.size_ratio.emplace();
-  for (const MetricInfo* const metric : metrics_of(with_all)) {
+  std::vector<std::string> metrics;
+  for (const MetricInfo* const metric : metrics_of_any_kind()) {
     for (const auto& [prefix, statistic] : statistics) {
-      names.emplace_back(prefix).append(metric->name);
+      metrics.emplace_back(prefix).append(metric->name);
+    }
+  }
+  names.insert(names.end(), metrics.begin(), metrics.end());
+  for (const auto& [prefix, statistic] : statistics) {
+    names.emplace_back(prefix).append(size_ratio_info.name);
+  }
+  metrics.insert(metrics.end(), {"inverted", "degenerate", std::string(info(Metric::min_angle).name),
+                                 std::string(info(Metric::max_angle).name)});
+  for (const auto& [prefix, kind] : kinds) {
+    for (const std::string& metric : metrics) {
+      names.emplace_back(prefix).append(metric);
     }
   }
   return names;
@@ -150,10 +194,12 @@ double gate_value(std::string_view name, const QualityReport& report, const std:
   }
   const std::string prefixes = list_text(statistics, [](const auto& statistic) { return statistic.first; });
   throw std::invalid_argument(fmt::format(
-      "unknown metric '{}'; valid are triangles, inverted, degenerate, {}, {}, {}, min_angle, max_angle, {}, "
-      "and one of {} before one of {}, {}{}",
-      name, invalid_quadratic, crossings, overlaps, size_ratio_info.name, prefixes, metric_names(),
-      size_ratio_info.name, did_you_mean(name, gate_names())));
+      "unknown metric '{}'; valid are triangles, quadrilaterals, inverted, degenerate, {}, {}, {}, min_angle, "
+      "max_angle, {}, and one of {} before one of {}, {}; 'triangle.' or 'quadrilateral.' before a name takes those "
+      "alone{}",
+      name, invalid_quadratic, crossings, overlaps, size_ratio_info.name, prefixes,
+      list_text(metrics_of_any_kind(), [](const MetricInfo* metric) { return metric->name; }), size_ratio_info.name,
+      did_you_mean(name, gate_names())));
 }
 
 bool needs_size_ratio(const Gate& gate) {

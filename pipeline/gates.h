@@ -49,10 +49,11 @@ struct GateOutcome {
   bool is_worse_than(const GateOutcome& other) const;
 };
 
-/// Every name that a gate may have: triangles, inverted, degenerate, invalid_quadratic, min_angle and max_angle (the
-/// smallest and the largest angle of the mesh), size_ratio (the largest), and for each metric, size_ratio too, min_M,
-/// mean_M, max_M, stddev_M and acceptable_M (the acceptable fraction, 0 to 1). Of a mesh that has followed its boundary
-/// also crossings and overlaps.
+/// Every name that a gate may have: triangles, quadrilaterals, inverted, degenerate, invalid_quadratic, min_angle and
+/// max_angle (the smallest and the largest angle of the mesh), size_ratio (the largest), and for each metric,
+/// size_ratio too, min_M, mean_M, max_M, stddev_M and acceptable_M (the acceptable fraction, 0 to 1). Behind
+/// "triangle." and "quadrilateral.", but for the numbers of both, of six-node triangles and size_ratio: of the elements
+/// of that kind alone. Of a mesh that has followed its boundary also crossings and overlaps.
 std::vector<std::string> gate_names();
 
 /// Whether it takes a report that has the size ratio (PipelineOptions::size_ratio).

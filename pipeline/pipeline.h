@@ -17,6 +17,7 @@
 #include "trismooth/pipeline/moving_fields.h"
 #include "trismooth/pipeline/partition.h"
 #include "trismooth/pipeline/projection.h"
+#include "trismooth/pipeline/quads.h"
 #include "trismooth/pipeline/region_array.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/quadratic_quality.h"
@@ -74,9 +75,12 @@ struct PipelineOptions {
   /// Corners of triangles that are no further apart than this, in the file's unit, count as one vertex and move
   /// together; the file keeps all of them. Absent: none are joined.
   std::optional<double> merge;
+  /// What becomes of quadrilaterals of four nodes. They are held as well, which a note says, where the mesh follows its
+  /// boundary, is connected by halfedges, is in pieces, or the backend smooths triangles alone.
+  Quads quads = Quads::smooth;
   /// Which vertices of boundaries and interfaces slide along them. Lines, their tags and links are those of the file,
-  /// in place of its own. Meshes of quadratic triangles, in tilted planes and in files of few digits do not
-  /// slide; a note says so.
+  /// in place of its own. Meshes with quadratic triangles or with quadrilaterals that are smoothed, in tilted planes
+  /// and in files of few digits do not slide; a note says so.
   Sliding slide{};
   /// The array that has the sizes to aim at, for Method::mean_ratio; other methods take no notice of it. In place of
   /// smoothing.mean_ratio.target_lengths.
@@ -135,6 +139,7 @@ struct InputSummary {
   FileFormat format = FileFormat::off;
   std::int64_t vertices = 0;
   std::int64_t triangles = 0;
+  std::int64_t quadrilaterals = 0;  ///< that are elements of the mesh; those that are held are other cells
   std::int64_t other_cells = 0;
   std::int64_t quadratic_triangles = 0;  ///< those of the triangles that have six nodes
   std::int64_t middle_nodes = 0;         ///< vertices that are neither fixed nor free, but follow the side they are on

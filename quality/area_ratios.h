@@ -7,23 +7,23 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/machine/bulk_memory.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/quality/size_change.h"
 
 namespace trismooth {
 
-/// Triangles whose logarithms are added up before they are added to those of others, in the order of the triangles.
+/// Elements whose logarithms are added up before they are added to those of others, in the order of the elements.
 inline constexpr std::size_t triangles_a_size_part = 1024;
 
 /// What size_change() is made of.
 struct AreaRatios {
-  BulkVector<double> ratios;  ///< A / A0 of every triangle, NaN where it is left out
-  std::vector<double> sums;   ///< of the squares of ln(A / A0) of triangles_a_size_part triangles each, the last fewer
+  BulkVector<double> ratios;  ///< A / A0 of every element, NaN where it is left out
+  std::vector<double> sums;   ///< of the squares of ln(A / A0) of triangles_a_size_part elements each, the last fewer
 };
 
 /// Makes it. Arguments and errors as those of size_change().
-AreaRatios area_ratios(const TriangleView& before, const TriangleView& after, int threads = 0);
+AreaRatios area_ratios(const MeshView& before, const MeshView& after, int threads = 0);
 
 /// Adds to counts, one by one, those that others have found who have the rest of the mesh.
 using AddUpCounts = std::function<void(std::vector<std::int64_t>&)>;

@@ -20,7 +20,7 @@ namespace trismooth {
 
 namespace {
 
-/// An edge between two vertices of the boundary, and the third corner of a triangle at it.
+/// An edge between two vertices of the boundary, and a corner across from it of an element at it.
 struct BoundaryEdge {
   std::int32_t low;
   std::int32_t high;
@@ -42,7 +42,7 @@ struct Spoke {
 
 class BoundarySearch {
  public:
-  BoundarySearch(const TriangleView& view, std::span<const std::uint8_t> held, int threads)
+  BoundarySearch(const MeshView& view, std::span<const std::uint8_t> held, int threads)
       : view_(view), held_(held), workers_(threads) {}
 
   CoarseBoundary find() {
@@ -60,25 +60,25 @@ class BoundarySearch {
         squared_length(view_.points[static_cast<std::size_t>(b)] - view_.points[static_cast<std::size_t>(a)]));
   }
 
-  /// What look(triangle, found) finds, in any order.
+  /// What look(element, found) finds, in any order.
   template <class Found, class Look>
-  std::vector<Found> found_in_triangles(const Look& look) {
+  std::vector<Found> found_in_elements(const Look& look) {
     constexpr std::int64_t grain = 16384;
     return joined_lists<Found>(std::ssize(view_.elements), grain, workers_, look);
   }
 
-  /// The edges of one triangle alone. Their ends are all on the boundary, so few others have to be looked at.
+  /// The edges of one element alone. Their ends are all on the boundary, so few others have to be looked at.
   void collect_edges() {
-    auto candidates = found_in_triangles<BoundaryEdge>([&](std::int64_t t, std::vector<BoundaryEdge>& found) {
-      const Triangle& corners = view_.elements[t];
-      if (int{on_boundary(corners[0])} + int{on_boundary(corners[1])} + int{on_boundary(corners[2])} < 2) {
+    auto candidates = found_in_elements<BoundaryEdge>([&](std::int64_t e, std::vector<BoundaryEdge>& found) {
+      const auto corners = view_.elements[static_cast<std::size_t>(e)];
+      if (std::ranges::count_if(corners, [this](std::int32_t v) { return on_boundary(v); }) < 2) {
         return;
       }
-      for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::int32_t a = corners[i];
-        const std::int32_t b = corners[(i + 1) % 3];
+        const std::int32_t b = next_corner(corners, i);
         if (on_boundary(a) && on_boundary(b)) {
-          found.push_back({std::min(a, b), std::max(a, b), corners[(i + 2) % 3]});
+          found.push_back({std::min(a, b), std::max(a, b), corners[(i + 2) % corners.size()]});
         }
       }
     });
@@ -95,21 +95,20 @@ class BoundarySearch {
     }
   }
 
-  /// The edges of every free vertex opposite of a boundary edge, each once: its triangles go around it.
+  /// The edges of every free vertex opposite of a boundary edge, each once: its elements go around it.
   void collect_spokes() {
     std::vector<std::uint8_t> is_apex(view_.points.size(), 0);
     for (const BoundaryEdge& edge : edges_) {
       const auto apex = static_cast<std::size_t>(edge.apex);
       is_apex[apex] = held_[apex] == 0 ? 1 : 0;
     }
-    spokes_ = found_in_triangles<Spoke>([&](std::int64_t t, std::vector<Spoke>& found) {
-      if (std::ranges::none_of(view_.elements[t], [&](std::int32_t v) { return is_apex[v] != 0; })) {
-        return;
-      }
-      const Triangle corners = canonical_corners(view_, t);
-      for (std::size_t i = 0; i < 3; ++i) {
+    spokes_ = found_in_elements<Spoke>([&](std::int64_t element, std::vector<Spoke>& found) {
+      const auto e = static_cast<std::size_t>(element);
+      const auto corners = view_.elements[e];
+      const bool is_reversed = !view_.reversed.empty() && view_.reversed[e] != 0;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
         if (is_apex[static_cast<std::size_t>(corners[i])] != 0) {
-          found.push_back(spoke(corners[i], corners[(i + 1) % 3]));
+          found.push_back(spoke(corners[i], is_reversed ? previous_corner(corners, i) : next_corner(corners, i)));
         }
       }
     });
@@ -200,7 +199,7 @@ class BoundarySearch {
     return result;
   }
 
-  const TriangleView& view_;
+  const MeshView& view_;
   std::span<const std::uint8_t> held_;
   Workers workers_;
   std::vector<BoundaryEdge> edges_;     ///< of the boundary
@@ -211,7 +210,7 @@ class BoundarySearch {
 
 }  // namespace
 
-CoarseBoundary find_coarse_boundary(const TriangleView& view, std::span<const std::uint8_t> held, int threads) {
+CoarseBoundary find_coarse_boundary(const MeshView& view, std::span<const std::uint8_t> held, int threads) {
   return BoundarySearch(view, held, threads).find();
 }
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/element_list.h"
 
 namespace trismooth {
 
@@ -28,12 +28,12 @@ inline constexpr double coarse_ratio = 4;
 inline constexpr double coarse_part = 0.2;
 
 /// Finds them. `held` says of each vertex why it is held (bits of namespace hold). What lies behind an edge are the
-/// edges at the free vertex opposite of it, but for the two to the edge's own ends: the median of their lengths. So
-/// layers of flat elements along a boundary are no reason for alarm, and the sizes of a graded mesh are not either.
-/// Edges opposite of held vertices are never coarse: nothing there can move away. The same for every number of threads,
-/// which is as in QualityOptions. Complexity: linear, but for sorting the boundary edges; no memory beside theirs and
-/// one byte a vertex.
-CoarseBoundary find_coarse_boundary(const TriangleView& view, std::span<const std::uint8_t> held, int threads = 0);
+/// edges at the free vertex opposite of it (of a quadrilateral, across from the end that comes first), but for the two
+/// to the edge's own ends: the median of their lengths. So layers of flat elements along a boundary are no reason for
+/// alarm, and the sizes of a graded mesh are not either. Edges opposite of held vertices are never coarse: nothing
+/// there can move away. The same for every number of threads, which is as in QualityOptions. Complexity: linear, but
+/// for sorting the boundary edges; no memory beside theirs and one byte a vertex.
+CoarseBoundary find_coarse_boundary(const MeshView& view, std::span<const std::uint8_t> held, int threads = 0);
 
 /// A sentence that says what was found, for people. There is something.
 std::string describe(const CoarseBoundary& boundary);

@@ -20,6 +20,14 @@ inline auto corner_points(const ElementView<Corners>& view, std::size_t element)
   return points_of(canonical_corners(view, element), view.points);
 }
 
+/// What body(corners) returns of the points of an element's corners, in canonical order: those of its kind, of an array
+/// of Triangle, or of MixedElement with triangles among them.
+template <class Corners, class Body>
+inline auto with_points(const ElementView<Corners>& view, std::size_t element, const Body& body) {
+  return with_kind(canonical_corners(view, element),
+                   [&](const auto& corners) { return body(points_of(corners, view.points)); });
+}
+
 /// Calls body(first, corners) for elements [begin, end) of the view in order, some hundred at a time: `corners` are
 /// those of element `first` and its successors. They are gathered before anything is computed, and asked for earlier
 /// still, since only that overlaps the cache misses of a mesh in random order. (No more at a time: the stack of a

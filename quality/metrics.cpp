@@ -98,6 +98,25 @@ std::string metric_names(ElementKind kind) {
   return list_text(all_metrics(kind), &MetricInfo::name);
 }
 
+const std::array<const MetricInfo*, metric_count>& metrics_of_any_kind() {
+  static const auto metrics = [] {
+    std::array<const MetricInfo*, metric_count> found{};
+    for (std::size_t m = 0; m < found.size(); ++m) {
+      const auto metric = static_cast<Metric>(m);
+      const MetricInfo* const of_triangles = find_info(metric, ElementKind::triangle);
+      found[m] = of_triangles != nullptr ? of_triangles : find_info(metric, ElementKind::quadrilateral);
+    }
+    return found;
+  }();
+  return metrics;
+}
+
+const MetricInfo* find_metric(std::string_view name) {
+  const auto& metrics = metrics_of_any_kind();
+  const auto found = std::ranges::find(metrics, name, &MetricInfo::name);
+  return found == metrics.end() ? nullptr : *found;
+}
+
 bool is_acceptable(Metric metric, double value, ElementKind kind) {
   return acceptable_range(metric, kind).holds(value);
 }

@@ -80,6 +80,13 @@ struct MetricInfo {
 /// "shape, area, ...": the name of every metric of elements of that kind, for messages.
 [[nodiscard]] std::string metric_names(ElementKind kind = ElementKind::triangle);
 
+/// What is known of every metric that elements of either kind have, in the order of the enumeration: as triangles have
+/// it, of those that they have none of as quadrilaterals do.
+[[nodiscard]] const std::array<const MetricInfo*, metric_count>& metrics_of_any_kind();
+
+/// The one of these with that name, or null.
+[[nodiscard]] const MetricInfo* find_metric(std::string_view name);
+
 /// True where the value lies in the metric's acceptable range. The ideal end of a range is open: an equilateral
 /// triangle is acceptable also where its shape is rounded above 1. Inverted elements are not acceptable by the signed
 /// metrics. False for NaN. Throws std::invalid_argument where elements of that kind have none of the metric.
@@ -96,7 +103,8 @@ using MetricValues = std::array<double, metric_count>;
 ///
 /// A degenerate triangle (area 0, also where corners coincide) has shape, area, scaled_jacobian and min_angle 0,
 /// max_angle 180, equiangle_skew 1 and infinite aspect_ratio, radius_ratio and condition; its edge_ratio is infinite
-/// where two corners coincide. Ratios of nearly degenerate triangles may overflow to infinity as well. Never NaN.
+/// where two corners coincide. Ratios of nearly degenerate triangles may overflow to infinity as well. NaN for a metric
+/// that is of quadrilaterals alone, never else.
 [[nodiscard]] double evaluate(Metric metric, Point2<double> a, Point2<double> b, Point2<double> c);
 
 /// Every metric of the triangle, the same bits as evaluate gives, for about the price of the two angles.

@@ -8,7 +8,7 @@
 
 namespace trismooth {
 
-QuadraticQuality quadratic_quality(const TriangleView& view, std::span<const QuadraticTriangle> elements, int threads) {
+QuadraticQuality quadratic_quality(const MeshView& view, std::span<const QuadraticTriangle> elements, int threads) {
   constexpr std::int64_t grain = 4096;
   Workers workers(threads);
   return joined_blocks(

@@ -20,9 +20,9 @@
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/elements_by_kind.h"
 #include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/orientation.h"
-#include "trismooth/quality/quality_part.h"
 
 namespace trismooth {
 
@@ -97,75 +97,18 @@ QualityReport in_units_of_caller(QualityReport report, const LocalFrame& frame) 
 }
 
 /// The quality of elements that have been connected.
-QualityReport report_of(std::span<const Triangle> triangles, const TriangleTopology& topology,
-                        const ConstPointView& points, const ElementValues& values, const QualityOptions& options,
-                        Workers& workers) {
-  const LocalPoints local = local_points(points, topology, workers);
-  const Orientation orientation = orient(topology, triangles, local.points, workers);
-  const TriangleView view{local.points, triangles, orientation.reversed, local.frame.exponent};
-  if (is_wanted(values)) {
-    fill_with_none(values);
-    find_values(
-        view, values, [](std::size_t t) { return t; }, workers);
-  }
-  return in_units_of_caller(quality_report(view, options), local.frame);
-}
-
-/// The elements of one kind, and their numbers among all.
 template <class Corners>
-struct OfKind {
-  std::vector<Corners> elements;
-  std::vector<std::uint8_t> reversed;
-  std::vector<std::size_t> numbers;
-
-  void add(const Corners& corners, std::uint8_t is_reversed, std::size_t number) {
-    elements.push_back(corners);
-    reversed.push_back(is_reversed);
-    numbers.push_back(number);
-  }
-  ElementView<Corners> view(const LocalPoints& local) const {
-    return {local.points, elements, reversed, local.frame.exponent};
-  }
-  /// The parts of a report of them, with their numbers among all.
-  auto parts(const LocalPoints& local, const QualityOptions& options) const {
-    auto made = quality_parts(view(local), options);
-    for (WorstElement& element : made.worst) {
-      element.element = static_cast<std::int64_t>(numbers[static_cast<std::size_t>(element.element)]);
-    }
-    return made;
-  }
-};
-
-QualityReport report_of(std::span<const MixedElement> elements, const TriangleTopology& topology,
+QualityReport report_of(std::span<const Corners> elements, const TriangleTopology& topology,
                         const ConstPointView& points, const ElementValues& values, const QualityOptions& options,
                         Workers& workers) {
   const LocalPoints local = local_points(points, topology, workers);
   const Orientation orientation = orient(topology, elements, local.points, workers);
-  OfKind<Triangle> triangles;
-  OfKind<MixedElement> quadrilaterals;
-  for (std::size_t e = 0; e < elements.size(); ++e) {
-    const auto& [a, b, c, d] = elements[e];
-    if (d == no_corner) {
-      triangles.add({a, b, c}, orientation.reversed[e], e);
-    } else {
-      quadrilaterals.add(elements[e], orientation.reversed[e], e);
-    }
-  }
+  const MeshView view{local.points, elements, orientation.reversed, local.frame.exponent};
   if (is_wanted(values)) {
     fill_with_none(values);
-    find_values(
-        triangles.view(local), values, [&](std::size_t t) { return triangles.numbers[t]; }, workers);
-    find_values(
-        quadrilaterals.view(local), values, [&](std::size_t q) { return quadrilaterals.numbers[q]; }, workers);
+    for_each_kind(view, [&](const auto& kind, const auto& number) { find_values(kind, values, number, workers); });
   }
-  const QualityParts of_triangles = triangles.parts(local, options);
-  const KindParts<QuadrilateralPoints> of_quadrilaterals = quadrilaterals.parts(local, options);
-  std::vector<WorstElement> worst = of_triangles.worst;
-  worst.insert(worst.end(), of_quadrilaterals.worst.begin(), of_quadrilaterals.worst.end());
-  std::ranges::sort(worst, is_worse);
-  worst.resize(std::min(worst.size(), static_cast<std::size_t>(std::max(options.worst_count, 0))));
-  return in_units_of_caller(
-      report_of(of_triangles.total(), of_quadrilaterals.total(), std::move(worst), local.frame.exponent), local.frame);
+  return in_units_of_caller(quality_report(view, options), local.frame);
 }
 
 void require_mesh_size(std::int64_t vertex_count, const IndexView& indices) {

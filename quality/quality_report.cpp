@@ -9,6 +9,7 @@
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/elements_by_kind.h"
 #include "trismooth/quality/metric_lanes.h"
 #include "trismooth/quality/quality_part.h"
 
@@ -170,6 +171,16 @@ KindParts<Points> parts_of(const ElementView<Corners>& view, const QualityOption
   return made;
 }
 
+/// Those of the elements of one kind, the worst with their numbers among all.
+template <class Corners>
+auto parts_of(const ElementsOfKind<Corners>& elements, const MeshView& mesh, const QualityOptions& options) {
+  auto made = quality_parts(elements.view(mesh), options);
+  for (WorstElement& element : made.worst) {
+    element.element = static_cast<std::int64_t>(elements.numbers[static_cast<std::size_t>(element.element)]);
+  }
+  return made;
+}
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Of what a metric's summary is made.
@@ -314,9 +325,20 @@ QualityReport report_of(const QualityPart& triangles, const KindPart<Quadrilater
   return report;
 }
 
-QualityReport quality_report(const TriangleView& view, const QualityOptions& options) {
-  QualityParts made = quality_parts(view, options);
-  return report_of(made.total(), std::move(made.worst), view.exponent);
+QualityReport quality_report(const MeshView& view, const QualityOptions& options) {
+  if (view.elements.are_triangles()) {
+    QualityParts made =
+        quality_parts(TriangleView{view.points, view.elements.triangles(), view.reversed, view.exponent}, options);
+    return report_of(made.total(), std::move(made.worst), view.exponent);
+  }
+  const ElementsByKind kinds(view);
+  const QualityParts of_triangles = parts_of(kinds.triangles, view, options);
+  const KindParts<QuadrilateralPoints> of_quadrilaterals = parts_of(kinds.quadrilaterals, view, options);
+  std::vector<WorstElement> worst = of_triangles.worst;
+  worst.insert(worst.end(), of_quadrilaterals.worst.begin(), of_quadrilaterals.worst.end());
+  std::ranges::sort(worst, is_worse);
+  worst.resize(std::min(worst.size(), static_cast<std::size_t>(std::max(options.worst_count, 0))));
+  return report_of(of_triangles.total(), of_quadrilaterals.total(), std::move(worst), view.exponent);
 }
 
 double smallest_shape(const TriangleView& view, int threads) {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/element_list.h"
 #include "trismooth/quality/metrics.h"
 
 namespace trismooth {
@@ -47,7 +47,7 @@ struct KindQuality {
   const MetricSummary& operator[](Metric metric) const { return metrics[static_cast<std::size_t>(metric)]; }
 };
 
-/// The quality of a mesh's elements: its triangles, and its quadrilaterals where these were looked at.
+/// The quality of a mesh's elements.
 struct QualityReport {
   std::int64_t triangles = 0;
   std::int64_t quadrilaterals = 0;
@@ -76,13 +76,13 @@ struct QualityOptions {
   int worst_count = 10;  ///< how many of the worst elements to list, at most
 };
 
-/// Every metric of every triangle, in its canonical corner order. The report is the same to the bit for every number
-/// of threads. Complexity: linear, one pass; memory of about 1 byte a triangle. Throws std::invalid_argument for a
-/// number of threads out of range.
-[[nodiscard]] QualityReport quality_report(const TriangleView& view, const QualityOptions& options = {});
+/// Every metric of every element, in its canonical corner order. The report is the same to the bit for every number
+/// of threads. Complexity: linear, one pass; memory of about 1 byte a triangle, and where quadrilaterals are among the
+/// elements a copy of them. Throws std::invalid_argument for a number of threads out of range.
+[[nodiscard]] QualityReport quality_report(const MeshView& view, const QualityOptions& options = {});
 
-/// The smallest shape alone, several times as fast: the report's [Metric::shape].min to the bit. NaN where there is no
-/// triangle. `threads` as in QualityOptions.
+/// The smallest shape of triangles alone, several times as fast: the report's [Metric::shape].min to the bit. NaN where
+/// there is none. `threads` as in QualityOptions.
 [[nodiscard]] double smallest_shape(const TriangleView& view, int threads = 0);
 
 /// Prints the report as a table for people, plain ASCII.

@@ -23,13 +23,15 @@ struct CompensatedSum {
 
 }  // namespace
 
-std::vector<double> region_areas(const TriangleView& view, std::span<const std::int32_t> region_of,
+std::vector<double> region_areas(const MeshView& view, std::span<const std::int32_t> region_of,
                                  std::int32_t region_count) {
   std::vector<CompensatedSum> sums(static_cast<std::size_t>(region_count));
-  for (std::size_t t = 0; t < view.elements.size(); ++t) {
-    CompensatedSum& sum = sums[region_of.empty() ? 0 : static_cast<std::size_t>(region_of[t])];
-    sum.add(doubled_area(corner_points(view, t)) / 2);
-  }
+  view.visit([&](const auto& elements) {
+    for (std::size_t e = 0; e < elements.elements.size(); ++e) {
+      CompensatedSum& sum = sums[region_of.empty() ? 0 : static_cast<std::size_t>(region_of[e])];
+      sum.add(with_points(elements, e, [](const auto& corners) { return doubled_area(corners); }) / 2);
+    }
+  });
   std::vector<double> areas;
   areas.reserve(sums.size());
   for (const CompensatedSum& sum : sums) {

@@ -6,31 +6,33 @@
 #include <limits>
 #include <utility>
 
+#include "trismooth/quality/metrics.h"
 #include "trismooth/quality/region_quality.h"
 
 namespace trismooth {
 
-/// What some triangles of a region contribute to its quality. Shapes are added up in chunks of triangles_a_chunk of the
-/// region's triangles, in their order, and chunks to those before them: so no rounding depends on who adds them. Bytes
+/// What some elements of a region contribute to its quality. Shapes are added up in chunks of triangles_a_chunk of the
+/// region's elements, in their order, and chunks to those before them: so no rounding depends on who adds them. Bytes
 /// may be copied.
 struct RegionPart {
   static constexpr std::int64_t triangles_a_chunk = 1024;
 
-  /// Adds the next triangle of the region.
-  void add(double shape, double angle) {
-    ++sums.triangles;
+  /// Adds the next element of the region.
+  void add(double shape, double angle, ElementKind kind = ElementKind::triangle) {
+    ++(kind == ElementKind::triangle ? sums.triangles : sums.quadrilaterals);
     sums.inverted += shape < 0 ? 1 : 0;
     sums.min_shape = std::min(sums.min_shape, shape);
     sums.min_angle = std::min(sums.min_angle, angle);
     chunk += shape;
-    if (sums.triangles % triangles_a_chunk == 0) {
+    if (sums.elements() % triangles_a_chunk == 0) {
       sums.mean_shape += std::exchange(chunk, 0.0);
     }
   }
 
-  /// Adds the triangles behind these, which are whole chunks.
+  /// Adds the elements behind these, which are whole chunks.
   void append(const RegionPart& next) {
     sums.triangles += next.sums.triangles;
+    sums.quadrilaterals += next.sums.quadrilaterals;
     sums.inverted += next.sums.inverted;
     sums.min_shape = std::min(sums.min_shape, next.sums.min_shape);
     sums.mean_shape += next.sums.mean_shape;
@@ -38,14 +40,14 @@ struct RegionPart {
     chunk = next.chunk;
   }
 
-  /// The quality of a region of these triangles.
+  /// The quality of a region of these elements.
   RegionQuality quality() const {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    if (sums.triangles == 0) {
+    if (sums.elements() == 0) {
       return {0, 0, nan, nan, nan};
     }
     RegionQuality quality = sums;
-    quality.mean_shape = (sums.mean_shape + chunk) / static_cast<double>(sums.triangles);
+    quality.mean_shape = (sums.mean_shape + chunk) / static_cast<double>(sums.elements());
     return quality;
   }
 

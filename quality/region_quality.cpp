@@ -15,7 +15,7 @@ namespace trismooth {
 
 namespace {
 
-/// Some triangles of one region: members[begin .. end). Of this size whatever the number of threads, and combined in
+/// Some elements of one region: members[begin .. end). Of this size whatever the number of threads, and combined in
 /// order: no rounding depends on scheduling.
 struct Chunk {
   std::size_t region;
@@ -25,21 +25,23 @@ struct Chunk {
 
 constexpr auto chunk_size = static_cast<std::size_t>(RegionPart::triangles_a_chunk);
 
-RegionPart part_of(const TriangleView& view, std::span<const std::int32_t> members) {
+template <class Corners>
+RegionPart part_of(const ElementView<Corners>& view, std::span<const std::int32_t> members) {
   RegionPart part;
-  for (const std::int32_t triangle : members) {
-    const CornerPoints corners = corner_points(view, static_cast<std::size_t>(triangle));
-    part.add(evaluate(Metric::shape, corners), evaluate(Metric::min_angle, corners));
+  for (const std::int32_t element : members) {
+    with_points(view, static_cast<std::size_t>(element), [&]<class Points>(const Points& corners) {
+      part.add(evaluate(Metric::shape, corners), evaluate(Metric::min_angle, corners), KindMetrics<Points>::kind);
+    });
   }
   return part;
 }
 
 }  // namespace
 
-std::vector<RegionQuality> region_quality(const TriangleView& view, std::span<const std::int32_t> region_of,
+std::vector<RegionQuality> region_quality(const MeshView& view, std::span<const std::int32_t> region_of,
                                           std::int32_t region_count, int threads) {
   Workers workers(threads);
-  // The triangles by region, in their order within each.
+  // The elements by region, in their order within each.
   std::vector<std::int32_t> members(region_of.size());
   const std::vector<std::int64_t> offsets = counting_sort(
       std::ssize(region_of), region_count, [&](std::int64_t t) { return region_of[t]; },
@@ -55,7 +57,8 @@ std::vector<RegionQuality> region_quality(const TriangleView& view, std::span<co
   std::vector<RegionPart> partials(chunks.size());
   workers.for_blocks(static_cast<std::int64_t>(chunks.size()), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      partials[i] = part_of(view, std::span(members).subspan(chunks[i].begin, chunks[i].end - chunks[i].begin));
+      const auto of_chunk = std::span(members).subspan(chunks[i].begin, chunks[i].end - chunks[i].begin);
+      partials[i] = view.visit([&](const auto& elements) { return part_of(elements, of_chunk); });
     }
   });
 

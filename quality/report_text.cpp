@@ -76,6 +76,12 @@ std::string bytes_text(std::int64_t bytes) {
   return size < 9.95 * mebibyte ? fixed_digits(size / mebibyte, 2) + " MiB" : fixed_digits(size / mebibyte, 0) + " MiB";
 }
 
+ElementWords element_words(std::int64_t triangles, std::int64_t quadrilaterals) {
+  return quadrilaterals == 0 ? ElementWords{"triangle", "triangles"}
+         : triangles == 0    ? ElementWords{"quadrilateral", "quadrilaterals"}
+                             : ElementWords{"element", "elements"};
+}
+
 std::string percent_text(double fraction) {
   if (std::isnan(fraction)) {
     return "-";
@@ -87,11 +93,11 @@ std::string percent_text(double fraction) {
 }
 
 double worst_of(Metric metric, const MetricSummary& summary) {
-  return info(metric).larger_is_better ? summary.min : summary.max;
+  return metrics_of_any_kind()[static_cast<std::size_t>(metric)]->larger_is_better ? summary.min : summary.max;
 }
 
 std::string_view verdict(Metric metric, const MetricSummary& before, const MetricSummary& after) {
-  const bool larger_is_better = info(metric).larger_is_better;
+  const bool larger_is_better = metrics_of_any_kind()[static_cast<std::size_t>(metric)]->larger_is_better;
   // The size of an element is not its quality, and condition jumps from infinity to its negative at inversion.
   const bool has_sign_jump = !larger_is_better && (before.min < 0 || after.min < 0);
   if (metric == Metric::area || has_sign_jump || std::isnan(before.mean) || std::isnan(after.mean)) {

@@ -35,6 +35,15 @@ std::string size_text(std::int64_t vertices);
 /// "0.25 MiB", "213 MiB", "139.8 GiB": an amount of memory with the digits that matter.
 std::string bytes_text(std::int64_t bytes);
 
+/// What the elements of a mesh are called.
+struct ElementWords {
+  std::string_view one;
+  std::string_view several;
+};
+
+/// "triangle" where there are no quadrilaterals, "quadrilateral" where there are no triangles, else "element".
+ElementWords element_words(std::int64_t triangles, std::int64_t quadrilaterals);
+
 /// A fraction in per cent without the sign, cut rather than rounded: 100 and 0 are said of all and of none only.
 std::string percent_text(double fraction);
 

@@ -26,12 +26,23 @@ namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Twice the areas of the block's triangles from `first` on, NaN where one is not valid.
+constexpr auto doubled_valid_area = [](const auto& corners) {
+  return shape_quotient(corners) > 0 ? doubled_area(corners) : no_number;
+};
+
+/// Twice the areas of the block's elements from `first` on, NaN where one is not valid.
 void doubled_valid_areas(const TriangleView& view, std::size_t first, std::span<double> areas) {
   for_corners(view, first, first + areas.size(), [&](std::size_t begin, std::span<const CornerPoints> corners) {
-    std::ranges::transform(corners, areas.begin() + static_cast<std::ptrdiff_t>(begin - first),
-                           [](const auto& of) { return shape_quotient(of) > 0 ? doubled_area(of) : no_number; });
+    std::ranges::transform(corners, areas.begin() + static_cast<std::ptrdiff_t>(begin - first), doubled_valid_area);
   });
+}
+void doubled_valid_areas(const ElementView<MixedElement>& view, std::size_t first, std::span<double> areas) {
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    areas[i] = with_points(view, first + i, doubled_valid_area);
+  }
+}
+void doubled_valid_areas(const MeshView& mesh, std::size_t first, std::span<double> areas) {
+  mesh.visit([&](const auto& view) { doubled_valid_areas(view, first, areas); });
 }
 
 /// Finds ratios by their rank among those that are numbers. These are not negative, so their bits stand in their order:
@@ -116,10 +127,10 @@ class RatioRanks {
 
 }  // namespace
 
-AreaRatios area_ratios(const TriangleView& before, const TriangleView& after, int threads) {
+AreaRatios area_ratios(const MeshView& before, const MeshView& after, int threads) {
   const std::size_t count = before.elements.size();
   if (after.elements.size() != count) {
-    throw std::invalid_argument("size_change: the meshes have different triangles");
+    throw std::invalid_argument("size_change: the meshes have different elements");
   }
   const double unit = std::ldexp(1.0, 2 * (after.exponent - before.exponent));
   BulkVector<double> ratios(count);
@@ -164,7 +175,7 @@ SizeChange size_change_of(std::span<const double> ratios, double sum, const AddU
   return change;
 }
 
-SizeChange size_change(const TriangleView& before, const TriangleView& after, int threads) {
+SizeChange size_change(const MeshView& before, const MeshView& after, int threads) {
   const auto [ratios, sums] = area_ratios(before, after, threads);
   const auto is_all = [](std::vector<std::int64_t>& /*counts*/) {};
   return size_change_of(ratios, std::accumulate(sums.begin(), sums.end(), 0.0), is_all, threads);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
 #include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/base/triangle_topology.h"
@@ -22,28 +23,28 @@ double ratio_of(double a, double b) {
   return smaller > 0 ? std::max(a, b) / smaller : std::numeric_limits<double>::infinity();
 }
 
-std::vector<double> areas_of(const TriangleView& view, Workers& workers) {
+template <class Corners>
+std::vector<double> areas_of(const ElementView<Corners>& view, Workers& workers) {
   std::vector<double> areas(view.elements.size());
   workers.for_blocks(std::ssize(areas), ratio_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      areas[t] = std::abs(evaluate(Metric::area, corner_points(view, t)));
+      areas[t] = with_points(view, t, [](const auto& corners) { return std::abs(evaluate(Metric::area, corners)); });
     }
   });
   return areas;
 }
 
-}  // namespace
-
-std::vector<double> size_ratios(const TriangleView& view, int threads) {
-  Workers workers(threads);
+template <class Corners>
+std::vector<double> ratios_of(const ElementView<Corners>& view, Workers& workers) {
+  constexpr std::size_t most_sides = std::tuple_size_v<Corners>;
   const MatchedSides sides = match_sides(static_cast<std::int32_t>(view.points.size()), view.elements, workers);
   const std::vector<double> areas = areas_of(view, workers);
   std::vector<double> ratios(areas.size(), 1);
   workers.for_blocks(std::ssize(ratios), ratio_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto t = static_cast<std::size_t>(begin); t < static_cast<std::size_t>(end); ++t) {
-      for (std::size_t side = 3 * t; side < 3 * t + 3; ++side) {
+      for (std::size_t side = most_sides * t; side < most_sides * (t + 1); ++side) {
         if (const std::int32_t twin = sides.twins[side]; twin >= 0) {
-          ratios[t] = std::max(ratios[t], ratio_of(areas[t], areas[static_cast<std::size_t>(twin) / 3]));
+          ratios[t] = std::max(ratios[t], ratio_of(areas[t], areas[static_cast<std::size_t>(twin) / most_sides]));
         }
       }
     }
@@ -51,7 +52,14 @@ std::vector<double> size_ratios(const TriangleView& view, int threads) {
   return ratios;
 }
 
-MetricSummary size_ratio_summary(const TriangleView& view, int threads) {
+}  // namespace
+
+std::vector<double> size_ratios(const MeshView& view, int threads) {
+  Workers workers(threads);
+  return view.visit([&](const auto& elements) { return ratios_of(elements, workers); });
+}
+
+MetricSummary size_ratio_summary(const MeshView& view, int threads) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (view.elements.empty()) {
     return {nan, nan, nan, nan, nan};

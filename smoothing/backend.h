@@ -82,6 +82,9 @@ class Backend {
                                                     std::span<const Point2<double>> local,
                                                     const SmoothingOptions& options) const = 0;
 
+  /// Whether it has prepare_mixed().
+  virtual bool takes_quadrilaterals() const { return false; }
+
   /// prepare() of a mesh with quadrilaterals, for whole meshes without sliding, which are not untangled. Throws
   /// std::invalid_argument where the backend smooths triangles alone.
   // NOLINTNEXTLINE(performance-unnecessary-value-param): who overrides it takes the mesh.

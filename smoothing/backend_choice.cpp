@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/backend_choice.h"
 
+#include <concepts>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -19,17 +20,28 @@ const Backend& backend_of(const SmoothingOptions& options) {
   return backend;
 }
 
-MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
-                    std::span<const Triangle> triangles, const Constraints& constraints,
-                    const std::function<MeshRings()>& on_host) {
+std::unique_ptr<PreparedSmoother> prepared(MeshRings mesh, const ElementList& elements,
+                                           std::span<const Point2<double>> local, const SmoothingOptions& options) {
+  const Backend& backend = backend_of(options);
+  return elements.visit([&]<class Corners>(std::span<const Corners> listed) {
+    if constexpr (std::same_as<Corners, Triangle>) {
+      return backend.prepare(std::move(mesh), listed, local, options);
+    } else {
+      return backend.prepare_mixed(std::move(mesh), listed, local, options);
+    }
+  });
+}
+
+MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local, const ElementList& elements,
+                    const Constraints& constraints, const std::function<MeshRings()>& on_host) {
   std::string note;
   // A device does not know of named lines.
-  if (options.prefers_topology_of_device() && !constraints.slide.names_vertices()) {
+  if (options.prefers_topology_of_device() && elements.are_triangles() && !constraints.slide.names_vertices()) {
     try {
-      if (auto found = backend_of(options).find_rings(local, triangles, constraints, options)) {
+      if (auto found = backend_of(options).find_rings(local, elements.triangles(), constraints, options)) {
         Workers workers(options.threads);
         found->found_by = Topology::device;
-        found->slidable = find_slidable(triangles, found->fixed, constraints, workers);
+        found->slidable = find_slidable(elements.triangles(), found->fixed, constraints, workers);
         return *std::move(found);
       }
     } catch (const DeviceError& error) {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
@@ -19,12 +20,16 @@ namespace trismooth {
 /// there is a proposal.
 const Backend& backend_of(const SmoothingOptions& options);
 
-/// The rings of a mesh as the options want them found: by their backend where they prefer that and it finds rings, else
-/// by `on_host`, which finds what find_mesh_rings() finds. The same numbers either way. `local` are the points in the
-/// local frame. Throws DeviceError where the backend does and the options say Topology::device.
-MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local,
-                    std::span<const Triangle> triangles, const Constraints& constraints,
-                    const std::function<MeshRings()>& on_host);
+/// The mesh as that backend makes it ready: Backend::prepare(), or where the elements are not listed as triangles
+/// Backend::prepare_mixed(), whose arguments and errors these are.
+std::unique_ptr<PreparedSmoother> prepared(MeshRings mesh, const ElementList& elements,
+                                           std::span<const Point2<double>> local, const SmoothingOptions& options);
+
+/// The rings of a mesh as the options want them found: by their backend where they prefer that and it finds rings (of
+/// triangles alone), else by `on_host`, which finds what find_mesh_rings() finds. The same numbers either way. `local`
+/// are the points in the local frame. Throws DeviceError where the backend does and the options say Topology::device.
+MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local, const ElementList& elements,
+                    const Constraints& constraints, const std::function<MeshRings()>& on_host);
 
 /// What the user is to know where a device has failed to find the topology and the host does it instead.
 std::string host_took_over(const DeviceError& error);

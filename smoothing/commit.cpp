@@ -43,7 +43,7 @@ class Commit final : public FollowingNodes {
         middles_of_ends_(points.size(), mesh.middles) {
     std::vector<std::pair<std::int32_t, std::int32_t>> corners;
     for (std::size_t q = 0; q < mesh.quadratics.size(); ++q) {
-      for (const std::int32_t corner : mesh.triangles[static_cast<std::size_t>(mesh.quadratics[q].triangle)]) {
+      for (const std::int32_t corner : mesh.elements[static_cast<std::size_t>(mesh.quadratics[q].triangle)]) {
         corners.emplace_back(corner, static_cast<std::int32_t>(q));
       }
     }
@@ -61,7 +61,7 @@ class Commit final : public FollowingNodes {
     }
     if (result.untangling && !(options.guard && result.untangling->inverted_before == 0)) {
       result.untangling->inverted_after =
-          inverted_triangles(mesh_.rings.rings.view(), mesh_.triangles, turned, after_, workers_);
+          inverted_triangles(mesh_.rings.rings.view(), mesh_.elements.triangles(), turned, after_, workers_);
       result.untangling->turned_components = turned.count;
       result.untangling->turned = std::move(turned.triangles);
     }
@@ -79,13 +79,13 @@ class Commit final : public FollowingNodes {
   }
 
   bool is_spoiled(const Triangle& corners, bool is_turned) const override {
-    const auto has_corner = [](const Triangle& triangle, std::int32_t v) {
+    const auto has_corner = [](std::span<const std::int32_t> triangle, std::int32_t v) {
       return std::ranges::count(triangle, v) > 0;
     };
     return std::ranges::any_of(quadratics_of_corners_[corners[0]], [&](std::int32_t q) {
       const QuadraticTriangle& quadratic = mesh_.quadratics[static_cast<std::size_t>(q)];
       const auto t = static_cast<std::size_t>(quadratic.triangle);
-      const Triangle& listed = mesh_.triangles[t];
+      const std::span<const std::int32_t> listed = mesh_.elements[t];
       const auto is_valid = [&](std::span<const Point2<double>> points, bool is_reversed) {
         return jacobian_bound(quadratic_nodes(listed, quadratic.middles, is_reversed, points)).is_valid();
       };
@@ -159,9 +159,12 @@ class Commit final : public FollowingNodes {
   }
 
   void guard(TurnedComponents& turned, SmoothingResult& result) {
-    const GuardOutcome outcome =
-        keep_never_worse(mesh_.rings.rings.view(), mesh_.triangles, mesh_.rings.reversed, turned, before(), after_,
-                         workers_, mesh_.middles.empty() ? nullptr : this);
+    const RingView rings = mesh_.rings.rings.view();
+    FollowingNodes* const nodes = mesh_.middles.empty() ? nullptr : this;
+    const GuardOutcome outcome = mesh_.elements.are_triangles()
+                                     ? keep_never_worse(rings, mesh_.elements.triangles(), mesh_.rings.reversed, turned,
+                                                        before(), after_, workers_, nodes)
+                                     : keep_never_worse(rings, before(), after_, workers_, {}, nullptr, nodes);
     result.guard_rounds += outcome.rounds;
     for (const std::int32_t v : outcome.reverted) {
       result.reverted.push_back({v, mesh_.swept[static_cast<std::size_t>(v)]});

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/quality/quadratic_quality.h"
 #include "trismooth/smoothing/guard/stored_image.h"
 #include "trismooth/smoothing/middle_nodes.h"
@@ -20,7 +20,7 @@ class Workers;
 /// A mesh whose vertices the sweeps have moved. All views are the caller's.
 struct SweptMesh {
   const MeshRings& rings;  ///< of the mesh as it was read, in the input's numbering
-  std::span<const Triangle> triangles;
+  ElementList elements;    ///< not listed as triangles where the mesh has not been untangled alone
   std::span<const QuadraticTriangle> quadratics;  ///< those that have middles
   std::span<const MiddleNode> middles;            ///< those that follow their sides
   const LocalPoints& before;                      ///< all vertices as they were read, middles too

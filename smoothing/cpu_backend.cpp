@@ -523,6 +523,8 @@ class CpuBackend final : public Backend {
     return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, nullptr);
   }
 
+  bool takes_quadrilaterals() const override { return true; }
+
   std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
                                                   std::span<const Point2<double>> local,
                                                   const SmoothingOptions& options) const override {

@@ -108,23 +108,11 @@ LocalFrame frame_of_both(std::span<const Point2<double>> before, std::span<const
   return local_frame(box.low, box.high);
 }
 
-}  // namespace
-
-KeptMoves keep_never_worse(const ConstPointView& before, const PointView& after, const IndexView& triangles,
-                           const Constraints& constraints, int threads) {
-  SmoothingOptions options;
-  options.threads = threads;
-  options.validate();
-  require_same_kind(before, after);
-  if (constraints.slide.along != Slide::off) {
-    throw std::invalid_argument("what has moved along lines is not told from what has left them: without sliding");
-  }
-  Workers workers(threads);
-  const auto vertex_count = static_cast<std::int64_t>(before.size());
-  check_mesh_size(vertex_count, static_cast<std::int64_t>(triangles.size()));
-  std::vector<Triangle> copied;
-  const std::span<const Triangle> listed = triangles.triangles(vertex_count, copied);
-  AnalysedMesh mesh(static_cast<std::int32_t>(vertex_count), listed, constraints, workers);
+/// keep_never_worse() of elements as they are listed.
+template <class Corners>
+KeptMoves kept_moves(const ConstPointView& before, const PointView& after, std::span<const Corners> listed,
+                     const Constraints& constraints, const SmoothingOptions& options, Workers& workers) {
+  AnalysedMesh mesh(static_cast<std::int32_t>(before.size()), listed, constraints, workers);
   std::vector<Point2<double>> points = read(before, mesh, workers);
   std::vector<Point2<double>> moved = read(after, mesh, workers);
   require_same_heights(before, after);
@@ -148,6 +136,26 @@ KeptMoves keep_never_worse(const ConstPointView& before, const PointView& after,
   kept.degenerate = result.degenerate;
   after.write(points, workers);
   return kept;
+}
+
+}  // namespace
+
+KeptMoves keep_never_worse(const ConstPointView& before, const PointView& after, const IndexView& triangles,
+                           const Constraints& constraints, int threads) {
+  SmoothingOptions options;
+  options.threads = threads;
+  options.validate();
+  require_same_kind(before, after);
+  if (constraints.slide.along != Slide::off) {
+    throw std::invalid_argument("what has moved along lines is not told from what has left them: without sliding");
+  }
+  Workers workers(threads);
+  const auto vertex_count = static_cast<std::int64_t>(before.size());
+  check_mesh_size(vertex_count, static_cast<std::int64_t>(triangles.size()),
+                  triangles.may_have_quadrilaterals() ? 4 : 3);
+  return with_elements(triangles, vertex_count, [&](const auto& listed, const auto& /*converted*/) {
+    return kept_moves(before, after, listed, constraints, options, workers);
+  });
 }
 
 }  // namespace trismooth

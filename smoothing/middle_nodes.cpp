@@ -14,16 +14,16 @@ using SideEnds = std::array<std::int32_t, 2>;
 
 /// Calls visit(middle, ends) for the sides of all quadratic triangles.
 template <class Visit>
-void for_each_quadratic_side(std::span<const Triangle> triangles, std::span<const QuadraticTriangle> quadratics,
+void for_each_quadratic_side(const ElementList& elements, std::span<const QuadraticTriangle> quadratics,
                              const Visit& visit) {
   for (std::size_t q = 0; q < quadratics.size(); ++q) {
     if (q % 16384 == 0) {
       CallLimit::look();
     }
     const QuadraticTriangle& element = quadratics[q];
-    const Triangle& corners = triangles[static_cast<std::size_t>(element.triangle)];
+    const auto corners = elements[static_cast<std::size_t>(element.triangle)];
     for (std::size_t side = 0; side < 3; ++side) {
-      const auto [low, high] = std::minmax(corners[side], corners[(side + 1) % 3]);
+      const auto [low, high] = std::minmax({corners[side], next_corner(corners, side)});
       visit(static_cast<std::size_t>(element.middles[side]), SideEnds{low, high});
     }
   }
@@ -67,9 +67,8 @@ double share_of_side(const std::array<double, 3>& first, const std::array<double
   return std::isfinite(share) ? std::clamp(share, nearest_to_end, 1 - nearest_to_end) : 0.5;
 }
 
-std::vector<MiddleNode> settle_middles(std::span<const Triangle> triangles,
-                                       std::span<const QuadraticTriangle> quadratics, std::vector<std::uint8_t>& named,
-                                       std::vector<std::uint8_t>& in_other_cell) {
+std::vector<MiddleNode> settle_middles(const ElementList& elements, std::span<const QuadraticTriangle> quadratics,
+                                       std::vector<std::uint8_t>& named, std::vector<std::uint8_t>& in_other_cell) {
   std::vector<MiddleNode> following;
   if (quadratics.empty()) {
     return following;
@@ -78,12 +77,12 @@ std::vector<MiddleNode> settle_middles(std::span<const Triangle> triangles,
   constexpr SideEnds no_side{-1, -1};
   std::vector<std::uint8_t> fates(in_other_cell.size(), unknown);
   std::vector<SideEnds> sides(in_other_cell.size(), no_side);
-  for (const Triangle& triangle : triangles) {
-    for (const std::int32_t corner : triangle) {
+  for (const auto corners : elements) {
+    for (const std::int32_t corner : corners) {
       fates[static_cast<std::size_t>(corner)] = stays;
     }
   }
-  for_each_quadratic_side(triangles, quadratics, [&](std::size_t middle, const SideEnds& ends) {
+  for_each_quadratic_side(elements, quadratics, [&](std::size_t middle, const SideEnds& ends) {
     const bool has_other_side = sides[middle] != no_side && sides[middle] != ends;
     const bool is_held = in_other_cell[middle] != 0 || (!named.empty() && named[middle] != 0);
     if (fates[middle] == unknown) {
@@ -93,7 +92,7 @@ std::vector<MiddleNode> settle_middles(std::span<const Triangle> triangles,
     }
     sides[middle] = ends;
   });
-  for_each_quadratic_side(triangles, quadratics, [&](std::size_t middle, const SideEnds& ends) {
+  for_each_quadratic_side(elements, quadratics, [&](std::size_t middle, const SideEnds& ends) {
     if (fates[middle] == stays) {
       in_other_cell[middle] = 1;
       std::vector<std::uint8_t>& holding = !named.empty() && named[middle] != 0 ? named : in_other_cell;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/element_list.h"
 #include "trismooth/quality/quadratic_quality.h"
 
 namespace trismooth {
@@ -38,9 +38,8 @@ constexpr double middle_move(double share, double first_before, double first_now
 /// sides, one that is a corner as well, of any other cell, or that `named` holds (a byte a vertex, or empty: none is)
 /// has to stay, and so have the ends of its sides: in `named`, where it is named, else in `in_other_cell` (a byte a
 /// vertex). That has all middles afterwards. Their shares are 1/2 until find_shares() finds them. Complexity: linear.
-std::vector<MiddleNode> settle_middles(std::span<const Triangle> triangles,
-                                       std::span<const QuadraticTriangle> quadratics, std::vector<std::uint8_t>& named,
-                                       std::vector<std::uint8_t>& in_other_cell);
+std::vector<MiddleNode> settle_middles(const ElementList& elements, std::span<const QuadraticTriangle> quadratics,
+                                       std::vector<std::uint8_t>& named, std::vector<std::uint8_t>& in_other_cell);
 
 /// Gives the middles their shares. at(vertex): where it is in the input, as std::array<double, 3>. Complexity: linear.
 template <class At>

@@ -113,15 +113,6 @@ class SmoothingPlan::Implementation {
     }
   }
 
-  std::unique_ptr<PreparedSmoother> prepare(std::span<const Triangle> triangles,
-                                            std::span<const Point2<double>> local) {
-    return backend_of(options_).prepare(mesh_->with_rings(triangles, workers_), triangles, local, options_);
-  }
-  std::unique_ptr<PreparedSmoother> prepare(std::span<const MixedElement> elements,
-                                            std::span<const Point2<double>> local) {
-    return backend_of(options_).prepare_mixed(mesh_->with_rings(elements, workers_), elements, local, options_);
-  }
-
   /// Finds the frame and the orientation that these points give the mesh, and makes it ready again where that is new.
   /// `patient`: ends when all is ready.
   template <class Corners>
@@ -132,7 +123,7 @@ class SmoothingPlan::Implementation {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
       // it.
       smoother_.reset();
-      smoother_ = prepare(elements, local.points);
+      smoother_ = prepared(mesh_->with_rings(elements, workers_), elements, local.points, options_);
     }
     patient.reset();
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);

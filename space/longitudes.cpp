@@ -64,36 +64,40 @@ class TurnSets {
 
 }  // namespace
 
-UnwrappedLongitudes unwrap_longitudes(std::span<const double> longitudes, std::span<const Triangle> triangles) {
+UnwrappedLongitudes unwrap_longitudes(std::span<const double> longitudes, const ElementList& elements) {
   UnwrappedLongitudes result{std::vector<std::int32_t>(longitudes.size(), 0), {}};
   const auto jump = [&](std::int32_t a, std::int32_t b) {
     const double difference = longitudes[b] - longitudes[a];
     const auto turns = static_cast<std::int32_t>(std::ceil(std::max(0.0, std::abs(difference) - 180) / 360));
     return difference > 0 ? -turns : turns;
   };
-  const auto jumps = [&](const Triangle& triangle) {
-    return jump(triangle[0], triangle[1]) != 0 || jump(triangle[1], triangle[2]) != 0 ||
-           jump(triangle[2], triangle[0]) != 0;
+  const auto any_side = [](std::span<const std::int32_t> corners, const auto& holds) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (holds(corners[i], next_corner(corners, i))) {
+        return true;
+      }
+    }
+    return false;
   };
-  if (std::ranges::none_of(triangles, jumps)) {
+  const auto jumps = [&](std::int32_t a, std::int32_t b) { return jump(a, b) != 0; };
+  if (std::none_of(elements.begin(), elements.end(), [&](auto corners) { return any_side(corners, jumps); })) {
     return result;
   }
   TurnSets sets(longitudes.size());
-  for (const Triangle& triangle : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = triangle[i];
-      const std::int32_t b = triangle[(i + 1) % 3];
+  for (const auto corners : elements) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::int32_t a = corners[i];
+      const std::int32_t b = next_corner(corners, i);
       sets.join(a, b, jump(a, b));
     }
   }
   for (std::size_t v = 0; v < longitudes.size(); ++v) {
     result.turns[v] = sets.turns_of(static_cast<std::int32_t>(v));
   }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto is_cut = [&](std::int32_t a, std::int32_t b) { return result.turns[b] - result.turns[a] != jump(a, b); };
-    const auto& [a, b, c] = triangles[t];
-    if (is_cut(a, b) || is_cut(b, c) || is_cut(c, a)) {
-      result.cut.push_back(static_cast<std::int32_t>(t));
+  const auto is_cut = [&](std::int32_t a, std::int32_t b) { return result.turns[b] - result.turns[a] != jump(a, b); };
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (any_side(elements[e], is_cut)) {
+      result.cut.push_back(static_cast<std::int32_t>(e));
     }
   }
   return result;

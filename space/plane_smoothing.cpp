@@ -25,7 +25,7 @@ StoredImage image_of(const Plane& plane, Storage storage) {
           [storage](double number) { return rounded_to(storage, number); }};
 }
 
-SmoothingResult smooth_in_image(MeshRings& mesh, std::span<const Triangle> triangles,
+SmoothingResult smooth_in_image(MeshRings& mesh, const ElementList& elements,
                                 std::span<const QuadraticTriangle> quadratics, std::span<const MiddleNode> middles,
                                 const StoredImage& image, std::span<double> xyz, BulkVector<Point2<double>>& points,
                                 const LocalPoints& local, Storage swept, const SmoothingOptions& options) {
@@ -33,23 +33,23 @@ SmoothingResult smooth_in_image(MeshRings& mesh, std::span<const Triangle> trian
   // What has been untangled needs the guard that knows what the sweeps began with, too.
   in_image.guard = options.guard && options.untangles();
   // The commit asks for the rings once more.
-  const auto smoother = backend_of(options).prepare(mesh, triangles, local.points, in_image);
+  const auto smoother = prepared(mesh, elements, local.points, in_image);
   BulkVector<Point2<double>> moved = points;
   SmoothingResult result = smoother->smooth(moved, swept, local.frame);
   Workers workers(options.threads);
-  commit({mesh, triangles, quadratics, middles, local, moved}, image, xyz, points, options, workers, result);
+  commit({mesh, elements, quadratics, middles, local, moved}, image, xyz, points, options, workers, result);
   mesh.rings = {};
   return result;
 }
 
-SmoothingResult smooth_in_plane(MeshRings& mesh, std::span<const Triangle> triangles, const Plane& plane,
-                                std::span<double> xyz, BulkVector<Point2<double>>& points, const LocalPoints& local,
-                                Storage storage, const SmoothingOptions& options) {
+SmoothingResult smooth_in_plane(MeshRings& mesh, const ElementList& elements, const Plane& plane, std::span<double> xyz,
+                                BulkVector<Point2<double>>& points, const LocalPoints& local, Storage storage,
+                                const SmoothingOptions& options) {
   if (!plane.aligned) {
-    return smooth_in_image(mesh, triangles, {}, {}, image_of(plane, storage), xyz, points, local, Storage::float64,
+    return smooth_in_image(mesh, elements, {}, {}, image_of(plane, storage), xyz, points, local, Storage::float64,
                            options);
   }
-  const auto smoother = backend_of(options).prepare(with_rings_of(mesh), triangles, local.points, options);
+  const auto smoother = prepared(with_rings_of(mesh), elements, local.points, options);
   SmoothingResult result = smoother->smooth(points, storage, local.frame);
   Workers(options.threads).for_blocks(std::ssize(points), space_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {

@@ -412,8 +412,11 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
       .add_flag("--geographic", options.geographic,
                 "x is longitude and y latitude, in degrees: shapes are those on the sphere, also across the date line")
       ->group(option_group::coordinates);
+  add_enum_option(command, "--quads", options.quads,
+                  "Quadrilaterals of four nodes: smooth them as triangles, or hold their vertices")
+      ->group(option_group::constraints);
   add_parsed_option(command, "--merge", "DISTANCE",
-                    "Corners of triangles that are no further apart count as one vertex, in the file's unit; they move "
+                    "Corners of elements that are no further apart count as one vertex, in the file's unit; they move "
                     "together, and the file keeps all of them [none are joined]",
                     [&options](const std::string& text) { options.merge = parse_finite(text, 0); })
       ->group(option_group::constraints);
@@ -452,9 +455,9 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
   add_parsed_option(
       command, "--require", "'NAME>=X'",
       "Exit with 1 if the result misses this. Compares by >= <= > < ==; names: min_angle, max_angle, inverted, "
-      "degenerate, invalid_quadratic, triangles, size_ratio, and min_, mean_, max_, stddev_ or acceptable_ before a "
-      "metric: "
-      "min_shape. Repeatable",
+      "degenerate, invalid_quadratic, triangles, quadrilaterals, size_ratio, and min_, mean_, max_, stddev_ or "
+      "acceptable_ before a metric: min_shape; 'triangle.' or 'quadrilateral.' before a name takes those alone. "
+      "Repeatable",
       [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
       ->group(option_group::results);
   const auto add_verbosity_flag = [&](const char* name, Verbosity verbosity, const char* help) {

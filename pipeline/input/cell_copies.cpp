@@ -2,7 +2,6 @@
 #include "trismooth/pipeline/input/cell_copies.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -11,34 +10,34 @@
 #include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/repeated_triangles.h"
 #include "trismooth/base/text/counted.h"
-#include "trismooth/pipeline/input/triangle_cells.h"
+#include "trismooth/pipeline/input/element_cells.h"
 
 namespace trismooth {
 
 namespace {
 
 /// The middle across from each corner, by ascending corners; -1 where there is none.
-using Middles = std::array<std::pair<std::int32_t, std::int32_t>, 3>;
+using Middles = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
-Middles middles_of(const TriangleCells& mesh, std::int32_t triangle) {
-  const auto found = std::ranges::lower_bound(mesh.quadratics, triangle, {}, &QuadraticTriangle::triangle);
-  const bool has_any = found != mesh.quadratics.end() && found->triangle == triangle;
+Middles middles_of(const ElementCells& mesh, std::int32_t element) {
+  const auto found = std::ranges::lower_bound(mesh.quadratics, element, {}, &QuadraticTriangle::triangle);
+  const bool has_any = found != mesh.quadratics.end() && found->triangle == element;
+  const auto corners = mesh.elements[static_cast<std::size_t>(element)];
   Middles middles;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t across = (i + 2) % 3;
-    middles[i] = {mesh.triangles[triangle][across], has_any ? found->middles[i] : -1};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    middles.emplace_back(previous_corner(corners, i), has_any ? found->middles[i] : -1);
   }
   std::ranges::sort(middles);
   return middles;
 }
 
-/// Whether the copy has a middle that the triangle has not.
+/// Whether the copy has a middle that the element has not.
 bool has_other_middles(const Middles& copy, const Middles& first) {
   return !std::ranges::equal(copy, first, [](const auto& a, const auto& b) { return a.second == -1 || a == b; });
 }
 
-void hold_as_other_cell(TriangleCells& mesh, std::int32_t triangle) {
-  for (const auto& [corner, middle] : middles_of(mesh, triangle)) {
+void hold_as_other_cell(ElementCells& mesh, std::int32_t element) {
+  for (const auto& [corner, middle] : middles_of(mesh, element)) {
     for (const std::int32_t v : {corner, middle}) {
       if (v >= 0) {
         mesh.in_other_cell[v] = 1;
@@ -50,28 +49,31 @@ void hold_as_other_cell(TriangleCells& mesh, std::int32_t triangle) {
 
 }  // namespace
 
-std::vector<std::int32_t> leave_out(TriangleCells& mesh, std::span<const std::int32_t> left_out) {
-  std::vector<Triangle> triangles;
+std::vector<std::int32_t> leave_out(ElementCells& mesh, std::span<const std::int32_t> left_out) {
+  std::vector<std::int32_t> numbers(mesh.elements.size(), -1);
   BulkVector<std::int32_t> cells;
-  std::vector<QuadraticTriangle> quadratics;
-  std::vector<std::int32_t> numbers(mesh.triangles.size(), -1);
+  std::vector<std::size_t> kept;
   auto next = left_out.begin();
-  for (std::size_t t = 0; t < numbers.size(); ++t) {
-    if (next != left_out.end() && *next == static_cast<std::int32_t>(t)) {
+  for (std::size_t e = 0; e < numbers.size(); ++e) {
+    if (next != left_out.end() && *next == static_cast<std::int32_t>(e)) {
       ++next;
       continue;
     }
-    numbers[t] = static_cast<std::int32_t>(triangles.size());
-    triangles.push_back(mesh.triangles[t]);
-    cells.push_back(mesh.cells[t]);
+    numbers[e] = static_cast<std::int32_t>(kept.size());
+    kept.push_back(e);
+    cells.push_back(mesh.cells[e]);
   }
+  std::vector<QuadraticTriangle> quadratics;
   for (const QuadraticTriangle& quadratic : mesh.quadratics) {
     if (const std::int32_t number = numbers[quadratic.triangle]; number >= 0) {
       quadratics.push_back({number, quadratic.middles});
     }
   }
-  mesh.triangles_of_cells = std::move(triangles);
-  mesh.triangles = mesh.triangles_of_cells;
+  mesh.elements.visit([&]<class Corners>(std::span<const Corners> elements) {
+    std::vector<Corners> own(kept.size());
+    std::ranges::transform(kept, own.begin(), [&](std::size_t e) { return elements[e]; });
+    mesh.list(std::move(own));
+  });
   mesh.cells = std::move(cells);
   mesh.quadratics = std::move(quadratics);
   return numbers;
@@ -82,8 +84,9 @@ std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::
   return {first, std::ranges::upper_bound(first, copies.end(), cell, {}, &CellCopy::cell)};
 }
 
-void take_out_copies(TriangleCells& mesh, Workers& workers) {
-  const auto repeated = find_repeated_triangles(mesh.triangles, workers);
+void take_out_copies(ElementCells& mesh, Workers& workers) {
+  const auto repeated =
+      mesh.elements.visit([&](const auto& listed) { return find_repeated_triangles(listed, workers); });
   if (repeated.empty()) {
     return;
   }
@@ -100,7 +103,8 @@ void take_out_copies(TriangleCells& mesh, Workers& workers) {
   }
   const auto [triangle, first] = repeated.front();
   const auto cell_of = [&](std::int32_t t) { return std::to_string(mesh.cells[t]); };
-  mesh.notes.push_back(counted(repeated.size(), "triangle is", "triangles are") + " listed again (the first is cell " +
+  const std::string kind = kind_of_elements(mesh);
+  mesh.notes.push_back(counted(repeated.size(), kind + " is", kind + "s are") + " listed again (the first is cell " +
                        cell_of(triangle) + ", which has the corners of cell " + cell_of(first) +
                        "): " + (repeated.size() == 1 ? "it is" : "each is") +
                        " counted and smoothed once, as it is listed first; the file keeps all");
@@ -111,7 +115,7 @@ void take_out_copies(TriangleCells& mesh, Workers& workers) {
   }
   const std::vector<std::int32_t> numbers = leave_out(mesh, left_out);
   for (CellCopy& copy : mesh.copies) {
-    copy.triangle = numbers[copy.triangle];
+    copy.element = numbers[copy.element];
   }
 }
 

@@ -2,23 +2,23 @@
 #include "trismooth/pipeline/input/inner_edges.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace trismooth {
 
 namespace {
 
-std::vector<std::array<std::int32_t, 2>> find_neighbours(std::span<const Triangle> triangles) {
+std::vector<std::array<std::int32_t, 2>> find_neighbours(const ElementList& elements) {
   struct Side {
-    std::int32_t low, high, triangle;
+    std::int32_t low, high, element;
     auto operator<=>(const Side&) const = default;
   };
   std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto [a, b, c] = triangles[t];
-    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
-      sides.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(t)});
+  sides.reserve((elements.are_triangles() ? 3 : 4) * elements.size());
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const auto corners = elements[e];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto [low, high] = std::minmax({corners[i], next_corner(corners, i)});
+      sides.push_back({low, high, static_cast<std::int32_t>(e)});
     }
   }
   std::ranges::sort(sides);
@@ -28,7 +28,7 @@ std::vector<std::array<std::int32_t, 2>> find_neighbours(std::span<const Triangl
       ++end;
     }
     if (end - begin == 2) {
-      neighbours.push_back({sides[begin].triangle, sides[begin + 1].triangle});
+      neighbours.push_back({sides[begin].element, sides[begin + 1].element});
     }
   }
   return neighbours;
@@ -39,12 +39,12 @@ std::vector<std::array<std::int32_t, 2>> find_neighbours(std::span<const Triangl
 void InnerEdges::label_used_vertices() {
   constexpr std::int32_t unused = -1;
   std::vector<std::int32_t> labels(vertex_count_, unused);
-  labelled_.assign(triangles_.begin(), triangles_.end());
-  for (Triangle& triangle : labelled_) {
-    for (std::int32_t& v : triangle) {
+  labelled_.reserve((elements_.are_triangles() ? 3 : 4) * elements_.size());
+  for (const auto corners : elements_) {
+    for (const std::int32_t v : corners) {
       std::int32_t& label = labels[v];
       label = label == unused ? label_count_++ : label;
-      v = label;
+      labelled_.push_back(label);
     }
   }
 }
@@ -57,12 +57,13 @@ std::int64_t InnerEdges::vertices_between(std::span<const std::int32_t> numbers)
   }
   std::vector<std::int32_t> seen(static_cast<std::size_t>(label_count_), unseen);
   std::int64_t count = 0;
-  for (std::size_t t = 0; t < labelled_.size(); ++t) {
-    for (const std::int32_t v : labelled_[t]) {
-      std::int32_t& number = seen[v];
+  auto label = labelled_.begin();
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    for (std::size_t corner = 0; corner < elements_[e].size(); ++corner) {
+      std::int32_t& number = seen[*label++];
       if (number == unseen) {
-        number = numbers[t];
-      } else if (number != several && number != numbers[t]) {
+        number = numbers[e];
+      } else if (number != several && number != numbers[e]) {
         number = several;
         ++count;
       }
@@ -73,7 +74,7 @@ std::int64_t InnerEdges::vertices_between(std::span<const std::int32_t> numbers)
 
 double InnerEdges::fraction_between(std::span<const std::int32_t> numbers) {
   if (!neighbours_) {
-    neighbours_ = find_neighbours(triangles_);
+    neighbours_ = find_neighbours(elements_);
   }
   const auto changes =
       std::ranges::count_if(*neighbours_, [&](const auto& pair) { return numbers[pair[0]] != numbers[pair[1]]; });

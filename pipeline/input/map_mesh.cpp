@@ -67,18 +67,18 @@ double west_of(const DegreeRange& range) {
   return range.west >= 0 && range.east > 180 ? 0 : -180;
 }
 
-/// Takes the triangles out of those that are smoothed.
+/// Takes the elements out of those that are smoothed.
 void set_apart(PlanarMesh& mesh, std::span<const std::int32_t> cut) {
   for (const std::int32_t t : cut) {
-    for (const std::int32_t v : mesh.triangles[t]) {
+    for (const std::int32_t v : mesh.elements[static_cast<std::size_t>(t)]) {
       mesh.in_other_cell[v] = 1;
     }
   }
   leave_out(mesh, cut);
   mesh.other_cells += std::ssize(cut);
   mesh.notes.push_back(
-      fmt::format("the mesh goes round the globe: {} triangle{} across its seam {} kept as {}, {} vertices held fixed",
-                  cut.size(), cut.size() == 1 ? "" : "s", cut.size() == 1 ? "is" : "are",
+      fmt::format("the mesh goes round the globe: {} {}{} across its seam {} kept as {}, {} vertices held fixed",
+                  cut.size(), kind_of_elements(mesh), cut.size() == 1 ? "" : "s", cut.size() == 1 ? "is" : "are",
                   cut.size() == 1 ? "it is" : "they are", cut.size() == 1 ? "its" : "their"));
 }
 
@@ -100,12 +100,12 @@ bool has_sides_in_degrees(const PlanarMesh& mesh, const MeshDocument& document) 
   constexpr double shortest = 1e-5;
   constexpr double longest = 10;
   double sum = 0;
-  for (const Triangle& triangle : mesh.triangles) {
-    const double* const a = document.points.data() + 3 * static_cast<std::size_t>(triangle[0]);
-    const double* const b = document.points.data() + 3 * static_cast<std::size_t>(triangle[1]);
+  for (const auto corners : mesh.elements) {
+    const double* const a = document.points.data() + 3 * static_cast<std::size_t>(corners[0]);
+    const double* const b = document.points.data() + 3 * static_cast<std::size_t>(corners[1]);
     sum += std::hypot(b[0] - a[0], b[1] - a[1]);
   }
-  const double mean = sum / static_cast<double>(mesh.triangles.size());
+  const double mean = sum / static_cast<double>(mesh.elements.size());
   return mean >= shortest && mean <= longest;
 }
 
@@ -123,7 +123,7 @@ void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::files
   for (std::size_t v = 0; v < longitudes.size(); ++v) {
     longitudes[v] = mesh.in_cell[v] != 0 ? document.points[3 * v] : 0;
   }
-  const UnwrappedLongitudes unwrapped = unwrap_longitudes(longitudes, mesh.triangles);
+  const UnwrappedLongitudes unwrapped = unwrap_longitudes(longitudes, mesh.elements);
   const bool is_seamless =
       unwrapped.cut.empty() && std::ranges::all_of(unwrapped.turns, [](int turns) { return turns == 0; });
   if (!is_seamless && !mesh.quadratics.empty()) {

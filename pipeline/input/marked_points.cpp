@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <tuple>
 #include <unordered_map>
-#include <utility>
 
 #include "trismooth/base/splitmix64.h"
 #include "trismooth/base/text/counted.h"
@@ -33,7 +32,7 @@ struct Group {
 struct Region {
   std::int64_t vertices = 0;
   std::int64_t marked = 0;
-  std::int64_t sides = 0;  ///< of triangles, between two that are marked: two an edge
+  std::int64_t sides = 0;  ///< of elements, between two that are marked: two an edge
   const Group* surrounding = nullptr;
 
   /// Whether the marked are few, or lie on curves, on which there are about as many edges as vertices.
@@ -41,21 +40,21 @@ struct Region {
 };
 
 /// Per vertex: 1 where a neighbour is not of its group.
-std::vector<std::uint8_t> find_changes(std::span<const Triangle> triangles, std::span<const std::int32_t> group_of) {
+std::vector<std::uint8_t> find_changes(const ElementList& elements, std::span<const std::int32_t> group_of) {
   std::vector<std::uint8_t> changes(group_of.size(), 0);
-  const auto group = [&](std::int32_t v) { return group_of[v]; };
-  for (const auto& [a, b, c] : triangles) {
-    if (group(a) != group(b) || group(a) != group(c)) {
-      changes[a] = 1;
-      changes[b] |= static_cast<std::uint8_t>(group(b) != group(a) || group(b) != group(c));
-      changes[c] |= static_cast<std::uint8_t>(group(c) != group(a) || group(c) != group(b));
+  for (const auto corners : elements) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::int32_t next = next_corner(corners, i);
+      if (group_of[corners[i]] != group_of[next]) {
+        changes[corners[i]] = changes[next] = 1;
+      }
     }
   }
   return changes;
 }
 
 /// The groups, in the order of their first vertices. `group_of`: gets the one of each vertex inside.
-std::vector<Group> find_groups(std::span<const Triangle> triangles, std::span<const std::int32_t> markers,
+std::vector<Group> find_groups(const ElementList& elements, std::span<const std::int32_t> markers,
                                std::span<const std::int32_t> regions_inside, std::vector<std::int32_t>& group_of) {
   std::vector<Group> groups;
   std::unordered_map<std::int64_t, std::int32_t> numbers;
@@ -71,7 +70,7 @@ std::vector<Group> find_groups(std::span<const Triangle> triangles, std::span<co
       ++groups[group_of[v]].vertices;
     }
   }
-  const std::vector<std::uint8_t> changes = find_changes(triangles, group_of);
+  const std::vector<std::uint8_t> changes = find_changes(elements, group_of);
   for (std::size_t v = 0; v < markers.size(); ++v) {
     if (group_of[v] != none && changes[v] == 0) {
       ++groups[group_of[v]].amid_alike;
@@ -81,7 +80,7 @@ std::vector<Group> find_groups(std::span<const Triangle> triangles, std::span<co
 }
 
 /// Finds which groups surround and which are marked, region by region.
-void judge(std::span<const Triangle> triangles, std::span<const std::int32_t> group_of, std::int32_t zero,
+void judge(const ElementList& elements, std::span<const std::int32_t> group_of, std::int32_t zero,
            std::vector<Group>& groups) {
   const auto last = std::ranges::max_element(groups, {}, &Group::region);
   std::vector<Region> regions(last == groups.end() ? 0 : static_cast<std::size_t>(last->region) + 1);
@@ -105,10 +104,10 @@ void judge(std::span<const Triangle> triangles, std::span<const std::int32_t> gr
     const std::int32_t g = group_of[v];
     return g != none && groups[g].is_marked ? &groups[g] : nullptr;
   };
-  for (const auto& [a, b, c] : triangles) {
-    for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
-      const Group* const first = marked_group(from);
-      const Group* const second = first != nullptr ? marked_group(to) : nullptr;
+  for (const auto corners : elements) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Group* const first = marked_group(corners[i]);
+      const Group* const second = first != nullptr ? marked_group(next_corner(corners, i)) : nullptr;
       if (second != nullptr && first->region == second->region) {
         ++region_of(*first).sides;
       }
@@ -125,21 +124,19 @@ bool may_be_markers(std::string_view name, ScalarType type, std::uint64_t compon
   return components == 1 && type != ScalarType::float32 && type != ScalarType::float64 && is_marker_name(name);
 }
 
-std::vector<std::int32_t> find_regions_inside(std::span<const Triangle> triangles,
-                                              std::span<const std::int32_t> regions,
+std::vector<std::int32_t> find_regions_inside(const ElementList& elements, std::span<const std::int32_t> regions,
                                               std::span<const std::uint8_t> is_held) {
   constexpr std::int32_t unseen = -2;
   std::vector<std::int32_t> inside(is_held.size(), unseen);
   // Of a vertex inside each neighbour is met twice, and what is met twice leaves nothing behind.
   std::vector<std::uint64_t> left(is_held.size(), 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const std::int32_t region = regions.empty() ? 0 : regions[t];
-    std::uint64_t all = 0;
-    for (const std::int32_t v : triangles[t]) {
-      all ^= splitmix64(static_cast<std::uint64_t>(v));
-    }
-    for (const std::int32_t v : triangles[t]) {
-      left[v] ^= all ^ splitmix64(static_cast<std::uint64_t>(v));
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const std::int32_t region = regions.empty() ? 0 : regions[e];
+    const auto corners = elements[e];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::int32_t v = corners[i];
+      left[v] ^= splitmix64(static_cast<std::uint64_t>(next_corner(corners, i))) ^
+                 splitmix64(static_cast<std::uint64_t>(previous_corner(corners, i)));
       std::int32_t& of_vertex = inside[v];
       of_vertex = of_vertex == unseen || of_vertex == region ? region : none;
     }
@@ -152,11 +149,11 @@ std::vector<std::int32_t> find_regions_inside(std::span<const Triangle> triangle
   return inside;
 }
 
-MarkedPoints find_marked_points(std::span<const Triangle> triangles, std::span<const std::int32_t> markers,
-                                std::int32_t zero, std::span<const std::int32_t> regions_inside) {
+MarkedPoints find_marked_points(const ElementList& elements, std::span<const std::int32_t> markers, std::int32_t zero,
+                                std::span<const std::int32_t> regions_inside) {
   std::vector<std::int32_t> group_of;
-  std::vector<Group> groups = find_groups(triangles, markers, regions_inside, group_of);
-  judge(triangles, group_of, zero, groups);
+  std::vector<Group> groups = find_groups(elements, markers, regions_inside, group_of);
+  judge(elements, group_of, zero, groups);
   MarkedPoints points;
   for (std::size_t v = 0; v < markers.size(); ++v) {
     if (group_of[v] != none) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/element_list.h"
 #include "trismooth/mesh_io/data_array.h"
 
 namespace trismooth {
@@ -16,11 +16,10 @@ namespace trismooth {
 bool may_be_markers(std::string_view name, ScalarType type, std::uint64_t components);
 
 /// Of each vertex inside the mesh, of one region alone and not held anyway: the number of its region; of the others -1.
-/// `regions`: a number from 0 a triangle; empty: the mesh is one region. `is_held`: a flag a vertex. A vertex is inside
-/// where each neighbour is in two of its triangles, which is told by sums of scattered numbers: of 2^64 vertices on the
-/// boundary one would count as inside. Complexity: linear.
-std::vector<std::int32_t> find_regions_inside(std::span<const Triangle> triangles,
-                                              std::span<const std::int32_t> regions,
+/// `regions`: a number from 0 an element; empty: the mesh is one region. `is_held`: a flag a vertex. A vertex is inside
+/// where each neighbour along a side is in two of its elements, which is told by sums of scattered numbers: of 2^64
+/// vertices on the boundary one would count as inside. Complexity: linear.
+std::vector<std::int32_t> find_regions_inside(const ElementList& elements, std::span<const std::int32_t> regions,
                                               std::span<const std::uint8_t> is_held);
 
 /// The vertices that an array of markers marks, ascending, and how many more inside have another marker than what
@@ -41,8 +40,8 @@ struct MarkedPoints {
 /// `markers`: numbers from 0 that are equal where the markers of vertices are; `zero`: that of the marker 0, or -1.
 /// `regions_inside`: find_regions_inside(). This is the one judge, of the program and of the Python package.
 /// Complexity: linear.
-MarkedPoints find_marked_points(std::span<const Triangle> triangles, std::span<const std::int32_t> markers,
-                                std::int32_t zero, std::span<const std::int32_t> regions_inside);
+MarkedPoints find_marked_points(const ElementList& elements, std::span<const std::int32_t> markers, std::int32_t zero,
+                                std::span<const std::int32_t> regions_inside);
 
 /// What the user should know of what the array marks, one sentence each. `ids`: what holds other vertices, "a file of
 /// --fixed-ids".

@@ -2,7 +2,6 @@
 #include "trismooth/pipeline/input/named_sides.h"
 
 #include <algorithm>
-#include <array>
 #include <compare>
 #include <cstddef>
 #include <map>
@@ -10,15 +9,11 @@
 
 #include "trismooth/mesh_io/document/region_names.h"
 #include "trismooth/mesh_io/mesh_document.h"
-#include "trismooth/pipeline/input/triangle_cells.h"
+#include "trismooth/pipeline/input/element_cells.h"
 
 namespace trismooth {
 
 namespace {
-
-/// The corners of the sides of bits 1, 2 and 4.
-constexpr std::array<std::pair<std::size_t, std::size_t>, 3> ends_of_bits{{{0, 1}, {1, 2}, {0, 2}}};
-constexpr double values_with_bits = 1U << ends_of_bits.size();
 
 /// A side, and the array that marks it.
 struct Mark {
@@ -28,24 +23,25 @@ struct Mark {
   auto operator<=>(const Mark&) const = default;
 };
 
-/// The bits of a value; none where it is no number of bits.
-unsigned bits_of(double value) {
-  const bool has_bits = value > 0 && value < values_with_bits && value == static_cast<unsigned>(value);
+/// The bits of a value, one a side; none where it is no number of bits. The first is of the side from the first corner
+/// to the second one, the last of that back to the first.
+unsigned bits_of(double value, std::size_t sides) {
+  const bool has_bits = value > 0 && value < static_cast<double>(1U << sides) && value == static_cast<unsigned>(value);
   return has_bits ? static_cast<unsigned>(value) : 0;
 }
 
-void add_marks(const DataArray& array, std::int32_t number, const MeshDocument& document, const TriangleCells& mesh,
+void add_marks(const DataArray& array, std::int32_t number, const MeshDocument& document, const ElementCells& mesh,
                std::vector<Mark>& marks) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto cell = static_cast<std::size_t>(mesh.cells[t]);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const auto cell = static_cast<std::size_t>(mesh.cells[e]);
     if (document.cells.types[cell] == cell_type::triangle_strip) {
       continue;
     }
-    const unsigned bits = bits_of(array.value(cell));
-    for (std::size_t bit = 0; bit < ends_of_bits.size(); ++bit) {
-      if ((bits >> bit & 1U) != 0) {
-        const auto [low, high] =
-            std::minmax(mesh.triangles[t][ends_of_bits[bit].first], mesh.triangles[t][ends_of_bits[bit].second]);
+    const auto corners = mesh.elements[e];
+    const unsigned bits = bits_of(array.value(cell), corners.size());
+    for (std::size_t side = 0; side < corners.size(); ++side) {
+      if ((bits >> side & 1U) != 0) {
+        const auto [low, high] = std::minmax({corners[side], next_corner(corners, side)});
         marks.push_back({low, high, number});
       }
     }
@@ -54,7 +50,7 @@ void add_marks(const DataArray& array, std::int32_t number, const MeshDocument& 
 
 }  // namespace
 
-NamedSides find_named_sides(const MeshDocument& document, const TriangleCells& mesh) {
+NamedSides find_named_sides(const MeshDocument& document, const ElementCells& mesh) {
   NamedSides sides;
   std::vector<Mark> marks;
   std::int32_t number = 0;

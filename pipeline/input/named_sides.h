@@ -8,9 +8,9 @@
 namespace trismooth {
 
 struct MeshDocument;
-struct TriangleCells;
+struct ElementCells;
 
-/// Sides of triangles that a document's cell arrays mark as named boundaries (is_side_name() in region_names.h). They
+/// Sides of elements that a document's cell arrays mark as named boundaries (is_side_name() in region_names.h). They
 /// are to a mesh what line cells are: they hold their vertices, or these slide along them.
 struct NamedSides {
   std::vector<std::int32_t> lines;  ///< two points a side, ascending; each side once
@@ -20,8 +20,8 @@ struct NamedSides {
   std::int64_t count() const { return static_cast<std::int64_t>(tags.size()); }
 };
 
-/// Those of the mesh's triangles, but for strips. Arrays that hold other than whole numbers mark none. Complexity:
-/// n log n in the sides that are marked, and linear in the triangles for each such array.
-NamedSides find_named_sides(const MeshDocument& document, const TriangleCells& mesh);
+/// Those of the mesh's elements, but for strips. Arrays that hold other than whole numbers mark none. Complexity:
+/// n log n in the sides that are marked, and linear in the elements for each such array.
+NamedSides find_named_sides(const MeshDocument& document, const ElementCells& mesh);
 
 }  // namespace trismooth

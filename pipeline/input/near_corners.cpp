@@ -15,13 +15,13 @@
 
 namespace trismooth {
 
-std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> points, const ElementList& elements,
                                             double distance) {
   std::vector<std::int32_t> joined(points.size());
   std::iota(joined.begin(), joined.end(), 0);
   std::vector<std::uint8_t> is_corner(points.size(), 0);
-  for (const Triangle& triangle : triangles) {
-    for (const std::int32_t v : triangle) {
+  for (const auto corners : elements) {
+    for (const std::int32_t v : corners) {
       is_corner[v] = 1;
     }
   }
@@ -48,21 +48,25 @@ std::int64_t merge_corners(PlanarMesh& mesh, double distance) {
   if (!mesh.quadratics.empty()) {
     throw std::invalid_argument("--merge is for triangles of three nodes, and the mesh has some of six");
   }
-  mesh.merged = join_near_corners(mesh.points, mesh.triangles, distance);
-  std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (std::int32_t& v : triangles[t]) {
-      v = mesh.merged[v];
+  mesh.merged = join_near_corners(mesh.points, mesh.elements, distance);
+  mesh.elements.visit([&]<class Corners>(std::span<const Corners> elements) {
+    std::vector<Corners> joined(elements.begin(), elements.end());
+    for (std::size_t e = 0; e < joined.size(); ++e) {
+      const std::span corners(joined[e].begin(), static_cast<std::size_t>(corner_count(joined[e])));
+      for (std::int32_t& v : corners) {
+        v = mesh.merged[v];
+      }
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (std::count(corners.begin(), corners.end(), corners[i]) > 1) {
+          throw std::invalid_argument(fmt::format(
+              "--merge {} would join two corners of the {} in cell {}; the shortest side of the mesh is {:.3g}",
+              distance, corners.size() == 3 ? "triangle" : "quadrilateral", mesh.cells[e],
+              shortest_side(mesh.points, mesh.elements)));
+        }
+      }
     }
-    const auto& [a, b, c] = triangles[t];
-    if (a == b || b == c || c == a) {
-      throw std::invalid_argument(fmt::format(
-          "--merge {} would join two corners of the triangle in cell {}; the shortest side of the mesh is {:.3g}",
-          distance, mesh.cells[t], shortest_side(mesh.points, mesh.triangles)));
-    }
-  }
-  mesh.triangles_of_cells = std::move(triangles);
-  mesh.triangles = mesh.triangles_of_cells;
+    mesh.list(std::move(joined));
+  });
   merge_flags(mesh, mesh.in_other_cell);
   std::int64_t joined = 0;
   for (std::size_t v = 0; v < mesh.merged.size(); ++v) {
@@ -89,11 +93,11 @@ void follow_merged(const PlanarMesh& mesh, std::span<const double> before, std::
   }
 }
 
-double shortest_side(std::span<const Point2<double>> points, std::span<const Triangle> triangles) {
+double shortest_side(std::span<const Point2<double>> points, const ElementList& elements) {
   double shortest = std::numeric_limits<double>::infinity();
-  for (const Triangle& triangle : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Point2<double> side = points[static_cast<std::size_t>(triangle[(i + 1) % 3])] - points[triangle[i]];
+  for (const auto corners : elements) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Point2<double> side = points[static_cast<std::size_t>(next_corner(corners, i))] - points[corners[i]];
       const double length = std::hypot(side.x, side.y);
       shortest = length > 0 ? std::min(shortest, length) : shortest;
     }
@@ -101,15 +105,15 @@ double shortest_side(std::span<const Point2<double>> points, std::span<const Tri
   return shortest;
 }
 
-std::string describe_apart_triangles(std::span<const Point2<double>> points, std::span<const Triangle> triangles) {
-  std::string apart =
-      fmt::format("no two of the {} triangles share a side, so all vertices are on boundaries", triangles.size());
+std::string describe_apart_elements(std::span<const Point2<double>> points, const ElementList& elements) {
+  std::string apart = fmt::format("no two of the {} {} share a side, so all vertices are on boundaries",
+                                  elements.size(), elements.are_triangles() ? "triangles" : "elements");
   constexpr double near = 0.1;
-  const double shortest = shortest_side(points, triangles);
+  const double shortest = shortest_side(points, elements);
   if (std::isinf(shortest)) {
     return apart;
   }
-  const std::vector<std::int32_t> joined = join_near_corners(points, triangles, near * shortest);
+  const std::vector<std::int32_t> joined = join_near_corners(points, elements, near * shortest);
   std::int64_t corners = 0;
   double farthest = 0;
   for (std::size_t v = 0; v < joined.size(); ++v) {

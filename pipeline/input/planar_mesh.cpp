@@ -32,13 +32,13 @@ void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& d
 }
 
 /// Without a plane.
-PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
+PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path& path, Quads quads, Workers& workers) {
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
-  static_cast<TriangleCells&>(mesh) = triangle_cells(document, workers);
-  require_triangles(std::ssize(mesh.triangles), static_cast<std::int64_t>(document.cells.size()), path,
-                    mesh.high_order_triangles);
-  if (mesh.triangles.empty()) {
+  static_cast<ElementCells&>(mesh) = element_cells(document, workers, quads);
+  require_elements(static_cast<std::int64_t>(mesh.elements.size()), static_cast<std::int64_t>(document.cells.size()),
+                   path, {mesh.high_order_triangles, mesh.high_order_quads, mesh.held_quads});
+  if (mesh.elements.empty()) {
     mesh.notes.emplace_back("the file holds no cells: nothing to smooth");
   }
   return mesh;
@@ -46,15 +46,29 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
 
 }  // namespace
 
-void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path,
-                       std::int64_t high_order) {
-  if (triangles == 0 && cells > 0) {
-    throw ReadError(path, "holds " + counted(cells, "cell", "cells") + " but no triangle" +
-                              (high_order > 0 ? " of three or six nodes; " + counted(high_order, "has", "have") +
-                                                    " seven, ten or more (cubic triangles and the like), which are not "
-                                                    "smoothed: save the mesh with elements of order 1 or 2"
-                                              : "; only triangle meshes can be smoothed"));
+void require_elements(std::int64_t elements, std::int64_t cells, const std::filesystem::path& path,
+                      const UnsmoothedCells& unsmoothed) {
+  if (elements > 0 || cells == 0) {
+    return;
   }
+  const std::string holds = "holds " + counted(cells, "cell", "cells") + " but no ";
+  const auto has = [](std::int64_t count) { return counted(count, "has", "have"); };
+  if (unsmoothed.held_quads > 0) {
+    throw ReadError(path,
+                    holds + "triangle; " +
+                        counted(unsmoothed.held_quads, "is a quadrilateral that is", "are quadrilaterals that are") +
+                        " held, which --quads smooth smooths, on one process and by the CPU");
+  }
+  if (unsmoothed.high_order_triangles > 0) {
+    throw ReadError(path, holds + "triangle of three or six nodes; " + has(unsmoothed.high_order_triangles) +
+                              " seven, ten or more (cubic triangles and the like), which are not smoothed: save the "
+                              "mesh with elements of order 1 or 2");
+  }
+  if (unsmoothed.high_order_quads > 0) {
+    throw ReadError(path, holds + "quadrilateral of four nodes; " + has(unsmoothed.high_order_quads) +
+                              " more, which are not smoothed: save the mesh with elements of order 1");
+  }
+  throw ReadError(path, holds + "triangle; only meshes of triangles and quadrilaterals can be smoothed");
 }
 
 Storage storage_of(const MeshDocument& document) {
@@ -71,15 +85,16 @@ void check_document_size(std::size_t points, std::size_t cells, const std::files
   }
 }
 
-PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
-  PlanarMesh mesh = sorted_mesh(document, path, workers);
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers, Quads quads) {
+  PlanarMesh mesh = sorted_mesh(document, path, quads, workers);
   lay_into_plane(mesh, fit_plane(document.points, mesh.in_cell, document.cells, storage_of(document), workers),
                  document, path, workers);
   return mesh;
 }
 
-PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
-  PlanarMesh mesh = sorted_mesh(document, path, workers);
+PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers,
+                          Quads quads) {
+  PlanarMesh mesh = sorted_mesh(document, path, quads, workers);
   lay_into_plane(mesh, {}, document, path, workers);
   return mesh;
 }
@@ -87,15 +102,15 @@ PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::p
 PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
-  static_cast<TriangleCells&>(mesh) = triangle_cells(document, workers);
+  static_cast<ElementCells&>(mesh) = element_cells(document, workers, Quads::hold);
   mesh.notes.clear();
   lay_into_plane(mesh, {}, document, path, workers);
   return mesh;
 }
 
-PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path) {
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Quads quads) {
   Workers one(1);
-  return planar_mesh(document, path, one);
+  return planar_mesh(document, path, one, quads);
 }
 
 bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
@@ -108,7 +123,7 @@ bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<cons
 }
 
 void settle_middles(PlanarMesh& mesh, std::span<const double> points, std::vector<std::uint8_t>& named) {
-  mesh.middles = settle_middles(mesh.triangles, mesh.quadratics, named, mesh.in_other_cell);
+  mesh.middles = settle_middles(mesh.elements, mesh.quadratics, named, mesh.in_other_cell);
   find_shares(mesh.middles, [points](std::int32_t vertex) {
     const double* const p = points.data() + 3 * static_cast<std::size_t>(vertex);
     return std::array<double, 3>{p[0], p[1], p[2]};

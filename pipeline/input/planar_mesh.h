@@ -13,7 +13,7 @@
 #include "trismooth/base/point2.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_document.h"
-#include "trismooth/pipeline/input/triangle_cells.h"
+#include "trismooth/pipeline/input/element_cells.h"
 #include "trismooth/smoothing/middle_nodes.h"
 #include "trismooth/space/geographic_map.h"
 #include "trismooth/space/plane.h"
@@ -22,8 +22,8 @@ namespace trismooth {
 
 class Workers;
 
-/// The planar triangle mesh that a document holds. The document outlives it, and its cells stay as they are.
-struct PlanarMesh : TriangleCells {
+/// The planar mesh that a document holds. The document outlives it, and its cells stay as they are.
+struct PlanarMesh : ElementCells {
   Plane plane;
   std::optional<GeographicMap> map;   ///< where the points are longitudes and latitudes: what they are laid on
   BulkVector<Point2<double>> points;  ///< every vertex of the document in coordinates of the plane, file units
@@ -40,10 +40,16 @@ struct PlanarMesh : TriangleCells {
   }
 };
 
-/// Throws ReadError naming `path` for a mesh of that many cells, of which none is a triangle that can be smoothed;
-/// `high_order` of them are triangles of more than six nodes.
-void require_triangles(std::int64_t triangles, std::int64_t cells, const std::filesystem::path& path,
-                       std::int64_t high_order = 0);
+/// What keeps cells from being smoothed that are triangles or quadrilaterals.
+struct UnsmoothedCells {
+  std::int64_t high_order_triangles = 0;  ///< of more than six nodes
+  std::int64_t high_order_quads = 0;      ///< of more than four
+  std::int64_t held_quads = 0;            ///< of four
+};
+
+/// Throws ReadError naming `path` for a mesh of that many cells, of which none is an element that can be smoothed.
+void require_elements(std::int64_t elements, std::int64_t cells, const std::filesystem::path& path,
+                      const UnsmoothedCells& unsmoothed = {});
 
 /// Throws ReadError naming `path` for more than 2,147,483,647 points or cells, which 32 bits do not number.
 void check_document_size(std::size_t points, std::size_t cells, const std::filesystem::path& path);
@@ -51,26 +57,30 @@ void check_document_size(std::size_t points, std::size_t cells, const std::files
 /// The number type that coordinates are rounded to in the document's file.
 Storage storage_of(const MeshDocument& document);
 
-/// Finds the triangles (see triangle_cells()) and the plane of the document. Throws ReadError naming `path` where the
+/// Finds the elements (see element_cells()) and the plane of the document. Throws ReadError naming `path` where the
 /// vertices of cells do not lie in one plane (see fit_plane()) or have no finite coordinates in it (near the largest
-/// double), or the document holds cells but no triangle. A document without any cell is fine: nothing to smooth.
+/// double), or the document holds cells but no element. A document without any cell is fine: nothing to smooth.
 /// Complexity: linear.
-PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers,
+                       Quads quads = Quads::smooth);
 
 /// planar_mesh() on the calling thread.
-PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path);
+PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path& path, Quads quads = Quads::smooth);
 
 /// planar_mesh() of a mesh that may lie in no plane, laid into the plane of x and y: z has no say. Do not settle its
 /// plane.
-PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
+PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers,
+                          Quads quads = Quads::smooth);
 
-/// planar_mesh() of a piece of a mesh: it may have no triangle, or nothing at all, and no notes are made, which are for
-/// the whole mesh. Throws ReadError naming `path` for too many points or cells.
+/// planar_mesh() of a piece of a mesh, whose quadrilaterals are held: it may have no triangle, or nothing at all, and
+/// no notes are made, which are for the whole mesh. Throws ReadError naming `path` for too many points or cells.
 PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
 
-/// Not of a temporary: the triangles may be the document's own.
-PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path, Workers& workers) = delete;
-PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path) = delete;
+/// Not of a temporary: the elements may be the document's own.
+PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path, Workers& workers,
+                       Quads quads = Quads::smooth) = delete;
+PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path,
+                       Quads quads = Quads::smooth) = delete;
 
 /// Brings the document's mesh into the plane in which it is to be smoothed, now that it is known which vertices are
 /// `fixed` (not 0): see plane_of_fixed(). Throws ReadError as planar_mesh() does. True where plane and points are

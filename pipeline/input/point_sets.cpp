@@ -53,11 +53,11 @@ std::int32_t number_of_zero(const DataArray& array, const ValueNumbers& numbers)
 class InnerNeighbours {
  public:
   /// Of the vertices whose flag in `wanted` is 1.
-  InnerNeighbours(std::span<const Triangle> triangles, std::span<const std::uint8_t> wanted)
+  InnerNeighbours(const ElementList& elements, std::span<const std::uint8_t> wanted)
       : starts_(wanted.size() + 1, 0), ends_(wanted.size(), 0) {
     const auto is_wanted = [wanted](std::int32_t v) { return wanted[v] != 0; };
-    for (const Triangle& triangle : triangles) {
-      for (const std::int32_t v : triangle) {
+    for (const auto corners : elements) {
+      for (const std::int32_t v : corners) {
         starts_[static_cast<std::size_t>(v) + 1] += is_wanted(v) ? 2 : 0;
       }
     }
@@ -66,12 +66,12 @@ class InnerNeighbours {
       ends_[v] = starts_[v];
     }
     neighbours_.resize(starts_.back());
-    for (const auto& [a, b, c] : triangles) {
-      for (const auto& [v, left, right] : {Triangle{a, b, c}, Triangle{b, c, a}, Triangle{c, a, b}}) {
-        if (is_wanted(v)) {
-          std::int64_t& end = ends_[v];
-          neighbours_[static_cast<std::size_t>(end++)] = left;
-          neighbours_[static_cast<std::size_t>(end++)] = right;
+    for (const auto corners : elements) {
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (is_wanted(corners[i])) {
+          std::int64_t& end = ends_[corners[i]];
+          neighbours_[static_cast<std::size_t>(end++)] = next_corner(corners, i);
+          neighbours_[static_cast<std::size_t>(end++)] = previous_corner(corners, i);
         }
       }
     }
@@ -111,7 +111,7 @@ class InnerNeighbours {
 
 class SetFinder {
  public:
-  SetFinder(const MeshDocument& document, std::span<const Triangle> triangles, std::span<const std::int32_t> regions,
+  SetFinder(const MeshDocument& document, const ElementList& elements, std::span<const std::int32_t> regions,
             bool slides)
       : document_(document), slides_(slides) {
     for (const auto& sets : {std::span(document.point_sets), std::span(document.implied_sets)}) {
@@ -120,14 +120,14 @@ class SetFinder {
         names_.push_back(set.name);
       }
     }
-    const std::vector<std::int32_t> regions_inside = find_marked_sets(triangles, regions);
+    const std::vector<std::int32_t> regions_inside = find_marked_sets(elements, regions);
     std::vector<std::uint8_t> in_set(document.point_count(), 0);
     for (const std::vector<std::int32_t>& members : members_) {
       for (const std::int32_t v : members) {
         in_set[v] = 1;
       }
     }
-    const InnerNeighbours neighbours(triangles, in_set);
+    const InnerNeighbours neighbours(elements, in_set);
     keep_inner_points(neighbours, regions_inside);
     // Which set was the last to have the vertex: no set clears what the one before it has marked.
     std::vector<std::int32_t> last_set(document.point_count(), -1);
@@ -180,8 +180,7 @@ class SetFinder {
  private:
   /// Adds what arrays of markers mark. The region of each vertex that nothing else of the mesh holds, where there are
   /// implied sets or such arrays.
-  std::vector<std::int32_t> find_marked_sets(std::span<const Triangle> triangles,
-                                             std::span<const std::int32_t> regions) {
+  std::vector<std::int32_t> find_marked_sets(const ElementList& elements, std::span<const std::int32_t> regions) {
     const std::vector<const DataArray*> arrays = marker_arrays(document_);
     if (document_.implied_sets.empty() && arrays.empty()) {
       return {};
@@ -196,12 +195,12 @@ class SetFinder {
     }
     const std::string ids =
         document_.first_point_label ? "a file of --fixed-ids or --fixed-labels" : "a file of --fixed-ids";
-    std::vector<std::int32_t> inside = find_regions_inside(triangles, regions, is_held);
+    std::vector<std::int32_t> inside = find_regions_inside(elements, regions, is_held);
     for (const DataArray* const array : arrays) {
       std::vector<std::int32_t> rows(document_.point_count());
       std::iota(rows.begin(), rows.end(), 0);
       const ValueNumbers markers = number_values(*array, rows);
-      MarkedPoints marked = find_marked_points(triangles, markers.of_item, number_of_zero(*array, markers), inside);
+      MarkedPoints marked = find_marked_points(elements, markers.of_item, number_of_zero(*array, markers), inside);
       std::ranges::move(notes_of_marked_points(array->name, marked, ids), std::back_inserter(marker_notes_));
       members_.push_back(std::move(marked.vertices));
       names_.push_back(array->name);
@@ -324,14 +323,14 @@ bool holds_no_sets(std::span<const std::string> names) {
   return holds_none;
 }
 
-HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
-                        std::span<const std::string> names, std::span<const std::int32_t> regions, bool slides) {
+HeldSets find_held_sets(const MeshDocument& document, const ElementList& elements, std::span<const std::string> names,
+                        std::span<const std::int32_t> regions, bool slides) {
   const bool holds_none = holds_no_sets(names);
   if (document.point_sets.empty() && document.implied_sets.empty() && marker_arrays(document).empty() &&
       (names.empty() || holds_none)) {
     return {};
   }
-  SetFinder finder(document, triangles, regions, slides);
+  SetFinder finder(document, elements, regions, slides);
   if (holds_none) {
     return finder.by_names({});
   }

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/element_list.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/file_groups.h"
 
@@ -28,7 +28,7 @@ bool holds_no_sets(std::span<const std::string> names);
 
 /// The document's point sets that hold their vertices: those of `names`, or where that is empty all but those that are
 /// of an area. `names` may be no_sets alone. A set is of an area if it has a vertex inside the mesh (each of its
-/// neighbours is in two of its triangles) and all the neighbours of this: files name the points of whole parts, and
+/// neighbours is in two of its elements) and all the neighbours of this: files name the points of whole parts, and
 /// mean nothing by it that a smoother must obey. Notes name these, and sets without points.
 ///
 /// The document's implied sets are sets of those of their points that are inside the mesh, of no line or point cell
@@ -41,10 +41,10 @@ bool holds_no_sets(std::span<const std::string> names);
 ///
 /// "ARRAY=NUMBER" in `names` is the set of what points_of_label() has, which is never of an area.
 ///
-/// `triangles`: of the document. Throws std::invalid_argument for a name that no set has and for a label that nothing
+/// `elements`: of the document. Throws std::invalid_argument for a name that no set has and for a label that nothing
 /// has, with some of those there are.
-/// Complexity: n log n in the members of all sets and the triangles around them.
-HeldSets find_held_sets(const MeshDocument& document, std::span<const Triangle> triangles,
+/// Complexity: n log n in the members of all sets and the elements around them.
+HeldSets find_held_sets(const MeshDocument& document, const ElementList& elements,
                         std::span<const std::string> names = {}, std::span<const std::int32_t> regions = {},
                         bool slides = false);
 

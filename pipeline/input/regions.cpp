@@ -53,17 +53,17 @@ std::vector<Candidate> candidates_of(const MeshDocument& document) {
 
 class RegionFinder {
  public:
-  RegionFinder(const MeshDocument& document, const TriangleCells& mesh)
-      : mesh_(mesh), candidates_(candidates_of(document)), edges_(mesh.triangles, document.point_count()) {
+  RegionFinder(const MeshDocument& document, const ElementCells& mesh)
+      : mesh_(mesh), candidates_(candidates_of(document)), edges_(mesh.elements, document.point_count()) {
     if (!mesh.copies.empty()) {
       rows_.assign(mesh.cells.begin(), mesh.cells.end());
       for (const CellCopy& copy : mesh.copies) {
         rows_.push_back(copy.cell);
-        copy_of_.push_back(copy.triangle);
+        copy_of_.push_back(copy.element);
       }
       copies_by_triangle_ = mesh.copies;
       std::ranges::sort(copies_by_triangle_, {},
-                        [](const CellCopy& copy) { return std::pair(copy.triangle, copy.cell); });
+                        [](const CellCopy& copy) { return std::pair(copy.element, copy.cell); });
       has_several_.assign(mesh.cells.size(), 0);
     }
   }
@@ -82,7 +82,7 @@ class RegionFinder {
   TriangleValues values_of(const Candidate& candidate) {
     return {candidate.array.name,
             candidate.array.components,
-            std::ssize(mesh_.triangles),
+            static_cast<std::int64_t>(mesh_.elements.size()),
             [this, &candidate] { return numbers_of(candidate).count() > 1; },
             [this, &candidate] { return std::int64_t{numbers_of(candidate).count()}; },
             [this, &candidate] { return has_whole_numbers(candidate.array, numbers_of(candidate)); },
@@ -138,8 +138,9 @@ class RegionFinder {
 
   Regions take() {
     if (const auto several = std::ranges::count(has_several_, 1); several > 0) {
+      const std::string kind = kind_of_elements(mesh_);
       regions_.notes.push_back(
-          counted(several, "triangle is", "triangles are") +
+          counted(several, kind + " is", kind + "s are") +
           " listed in several regions: what these share is a region of its own, whose border is held; --region-array "
           "none switches regions off");
     }
@@ -162,8 +163,8 @@ class RegionFinder {
     std::string text =
         candidate.text(static_cast<std::size_t>(mesh_.cells[static_cast<std::size_t>(triangle)]), with_value);
     std::set<std::string> said{text};
-    const auto first = std::ranges::lower_bound(copies_by_triangle_, triangle, {}, &CellCopy::triangle);
-    for (auto copy = first; copy != copies_by_triangle_.end() && copy->triangle == triangle; ++copy) {
+    const auto first = std::ranges::lower_bound(copies_by_triangle_, triangle, {}, &CellCopy::element);
+    for (auto copy = first; copy != copies_by_triangle_.end() && copy->element == triangle; ++copy) {
       if (const auto [other, is_new] = said.insert(candidate.text(static_cast<std::size_t>(copy->cell), with_value));
           is_new) {
         text.append(" + ").append(*other);
@@ -172,7 +173,7 @@ class RegionFinder {
     return text;
   }
 
-  const TriangleCells& mesh_;
+  const ElementCells& mesh_;
   std::vector<Candidate> candidates_;
   InnerEdges edges_;
   Regions regions_;
@@ -190,7 +191,7 @@ class RegionFinder {
 
 }  // namespace
 
-Regions find_regions(const MeshDocument& document, const TriangleCells& mesh, std::span<const std::string> names,
+Regions find_regions(const MeshDocument& document, const ElementCells& mesh, std::span<const std::string> names,
                      std::string_view sizes, const ArrayOwner& owner) {
   return RegionFinder(document, mesh).find(names, sizes, owner);
 }

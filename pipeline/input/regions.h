@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/input/element_cells.h"
 #include "trismooth/pipeline/input/region_judge.h"
-#include "trismooth/pipeline/input/triangle_cells.h"
 #include "trismooth/pipeline/region_array.h"
 
 namespace trismooth {
@@ -40,7 +40,7 @@ struct Regions {
 ///
 /// Throws std::invalid_argument where `names` names no cell array of the document, or one of several components; the
 /// message lists those there are. Complexity: linear, and n log n where values change from triangle to triangle.
-Regions find_regions(const MeshDocument& document, const TriangleCells& mesh, std::span<const std::string> names = {},
+Regions find_regions(const MeshDocument& document, const ElementCells& mesh, std::span<const std::string> names = {},
                      std::string_view sizes = {}, const ArrayOwner& owner = {});
 
 }  // namespace trismooth

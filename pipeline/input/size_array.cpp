@@ -39,14 +39,14 @@ void require_one_component(const DataArray& array, const char* what) {
 SizeArray lengths_at_points(const DataArray& array, const PlanarMesh& mesh) {
   require_one_component(array, "point");
   SizeArray sizes{array.name, false, std::vector<double>(mesh.points.size(), 0)};
-  std::vector<std::uint8_t> in_triangle(mesh.points.size(), 0);
-  for (const Triangle& triangle : mesh.triangles) {
-    for (const std::int32_t v : triangle) {
-      in_triangle[v] = 1;
+  std::vector<std::uint8_t> in_element(mesh.points.size(), 0);
+  for (const auto corners : mesh.elements) {
+    for (const std::int32_t v : corners) {
+      in_element[v] = 1;
     }
   }
   for (std::size_t v = 0; v < sizes.lengths.size(); ++v) {
-    if (in_triangle[v] != 0) {
+    if (in_element[v] != 0) {
       sizes.lengths[v] = size_at(array, v, "point", "point");
     }
   }
@@ -55,7 +55,7 @@ SizeArray lengths_at_points(const DataArray& array, const PlanarMesh& mesh) {
 
 SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
   require_one_component(array, "cell");
-  std::vector<double> areas(mesh.triangles.size());
+  std::vector<double> areas(mesh.elements.size());
   double largest = 0;
   for (std::size_t begin = 0, end = 0; begin < areas.size(); begin = end) {
     // A strip has several triangles, one after the other, and its area is that of all of them, also of copies.
@@ -72,8 +72,11 @@ SizeArray areas_of_cells(const DataArray& array, const PlanarMesh& mesh) {
   std::vector<double> sums(mesh.points.size(), 0);
   std::vector<std::int32_t> counts(mesh.points.size(), 0);
   for (std::size_t t = 0; t < areas.size(); ++t) {
-    for (const std::int32_t v : mesh.triangles[t]) {
-      sums[v] += std::ldexp(areas[t], -exponent);
+    const auto corners = mesh.elements[t];
+    // (Of a quadrilateral half, which is what the method compares with triangles.)
+    const double area = std::ldexp(areas[t], corners.size() == 4 ? -exponent - 1 : -exponent);
+    for (const std::int32_t v : corners) {
+      sums[v] += area;
       ++counts[v];
     }
   }

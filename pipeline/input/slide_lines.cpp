@@ -35,7 +35,7 @@ bool tells_lines_apart(const DataArray& array, std::span<const RegionArray> regi
 
 }  // namespace
 
-SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& mesh,
+SlideLines find_slide_lines(const MeshDocument& document, const ElementCells& mesh,
                             std::span<const RegionArray> regions) {
   SlideLines found;
   const CellList& cells = document.cells;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
-#include "trismooth/pipeline/input/triangle_cells.h"
+#include "trismooth/pipeline/input/element_cells.h"
 #include "trismooth/pipeline/region_array.h"
 
 namespace trismooth {
@@ -25,7 +25,7 @@ struct SlideLines {
 /// Groups are the cell arrays of `regions`, those of names under which programs write regions, those with names of
 /// values for lines (physical groups, entities, references, markers), and others of whole numbers that do not number
 /// the lines. Complexity: linear, and n log n in the lines.
-SlideLines find_slide_lines(const MeshDocument& document, const TriangleCells& mesh,
+SlideLines find_slide_lines(const MeshDocument& document, const ElementCells& mesh,
                             std::span<const RegionArray> regions);
 
 }  // namespace trismooth

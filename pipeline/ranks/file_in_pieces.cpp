@@ -30,7 +30,7 @@ void take_sets(const PipelineOptions& options, Workers& workers, MeshShare& shar
   const MeshDocument& document = share.document;
   const PlanarMesh mesh = mesh_of_piece(document, options.input, workers);
   const Regions regions = find_regions(document, mesh, options.region_arrays);
-  HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets, regions.of_triangle);
+  HeldSets sets = find_held_sets(document, mesh.elements, options.fixed_sets, regions.of_triangle);
   share.held_by_sets = std::move(sets.flags);
   share.point_sets = std::move(sets.sets);
   share.notes = std::move(sets.notes);

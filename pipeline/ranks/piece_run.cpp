@@ -93,7 +93,7 @@ class PieceMesh final : public StagedMesh {
     if (ranks_->size() == 1 && are_numbered_without_gaps(files_)) {
       need_whole_mesh(std::string(is_alone));
     }
-    if (const std::string_view kind = what_is_not_joined(files_, *ranks_); !kind.empty()) {
+    if (const std::string_view kind = what_is_not_joined(files_, run_.options.quads, *ranks_); !kind.empty()) {
       need_whole_mesh(std::string(kind));
     }
     if (run_.options.output && run_.options.fields != Fields::keep && !arrays_of_places_.empty()) {
@@ -284,7 +284,7 @@ class PieceMesh final : public StagedMesh {
     PipelineResult& result = run_.result;
     const mpi::Overlap& overlap = topology_->overlap();
     cells_ = count_rank_cells(files_, *ranks_);
-    agree(*ranks_, [&] { require_triangles(topology_->triangle_count(), cells_.cells, run_.options.input); });
+    agree(*ranks_, [&] { require_elements(topology_->triangle_count(), cells_.cells, run_.options.input); });
     ReasonCounts reasons{};
     std::int64_t vertices = 0;
     for (std::int32_t v = 0; v < overlap.vertex_count(); ++v) {
@@ -308,7 +308,7 @@ class PieceMesh final : public StagedMesh {
     }
     const RankComponents components = count_components(*topology_, reversed_);
     const MeshFacts facts{.vertices = ranks_->sum(vertices),
-                          .triangles = topology_->triangle_count(),
+                          .elements = topology_->triangle_count(),
                           .other_cells = cells_.others,
                           .components = components.count,
                           .reoriented_triangles = components.reoriented_triangles,

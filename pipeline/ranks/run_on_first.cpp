@@ -138,23 +138,29 @@ class RankBackend final : public Backend {
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
-    const auto alone = [&](const std::string& why) {
-      return std::make_unique<NotedSmoother>(
-          cpu_backend().prepare(std::move(mesh), triangles, local, options),
-          why + " by one rank alone, not by the " + std::to_string(ranks_->size()) + " there are");
-    };
-    if (mesh.slidable.is_wanted()) {
-      return alone("vertices slide");
-    }
-    if (options.untangles() && has_broken_triangles(triangles, mesh.reversed, local)) {
-      return alone("inverted triangles are untangled");
+    const bool slides = mesh.slidable.is_wanted();
+    if (slides || (options.untangles() && has_broken_triangles(triangles, mesh.reversed, local))) {
+      return alone(cpu_backend().prepare(std::move(mesh), triangles, local, options),
+                   slides ? "vertices slide" : "inverted triangles are untangled");
     }
     SmoothingOptions of_rank = options;
     of_rank.backend = of_rank_;
     return std::make_unique<RankSmoother>(std::move(mesh), triangles, std::move(of_rank), partition_, ranks_);
   }
 
+  bool takes_quadrilaterals() const override { return true; }
+  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
+                                                  std::span<const Point2<double>> local,
+                                                  const SmoothingOptions& options) const override {
+    return alone(cpu_backend().prepare_mixed(std::move(mesh), elements, local, options), "quadrilaterals are smoothed");
+  }
+
  private:
+  std::unique_ptr<PreparedSmoother> alone(std::unique_ptr<PreparedSmoother> smoother, const std::string& why) const {
+    return std::make_unique<NotedSmoother>(
+        std::move(smoother), why + " by one rank alone, not by the " + std::to_string(ranks_->size()) + " there are");
+  }
+
   const Backend* of_rank_;
   Partition partition_;
   std::shared_ptr<const mpi::Communicator> ranks_;

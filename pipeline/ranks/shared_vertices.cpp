@@ -97,8 +97,8 @@ void check_repeated_triangles(const PieceFiles& files, const std::vector<std::ui
   auto sent = mpi::lists_by_rank<TriangleCopy>(ranks);
   std::size_t first_point = 0;
   for (const Piece& piece : files.pieces) {
-    for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
-      const Triangle& corners = piece.mesh.triangles[t];
+    for (std::size_t t = 0; t < piece.mesh.elements.triangles().size(); ++t) {
+      const Triangle& corners = piece.mesh.elements.triangles()[t];
       const bool is_between = std::ranges::all_of(
           corners, [&](std::int32_t v) { return is_shared[first_point + static_cast<std::size_t>(v)] != 0; });
       if (!is_between || piece.is_ghost(t)) {

@@ -26,9 +26,9 @@ std::string held_html(const InputSummary& input) {
   std::string rows;
   for (const auto& [name, count] : {std::pair<const char*, std::int64_t>{"on the boundary", held.boundary},
                                     {"between two regions", held.interface},
-                                    {"on edges of three triangles or more", held.non_manifold},
-                                    {"where triangles meet in a point only", held.bow_tie},
-                                    {"of cells that are not triangles", held.other_cells},
+                                    {"on edges of three elements or more", held.non_manifold},
+                                    {"where elements meet in a point only", held.bow_tie},
+                                    {"of cells that are not smoothed", held.other_cells},
                                     {"of no cell", held.unused},
                                     {"named", held.named},
                                     {"in layers that are flat on purpose", held.layers},

@@ -40,10 +40,19 @@ const QualityReport& final_report(const PipelineResult& result) {
   return result.after ? *result.after : result.before;
 }
 
+ElementWords words_of(const QualityReport& report) {
+  return element_words(report.triangles, report.quadrilaterals);
+}
+
 std::string header(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
   const InputSummary& input = result.input;
-  std::string counts =
-      fmt::format("{} vertices, {} triangles", count_text(input.vertices), count_text(input.triangles));
+  std::string counts = fmt::format("{} vertices", count_text(input.vertices));
+  if (input.triangles > 0 || input.quadrilaterals == 0) {
+    counts += fmt::format(", {} triangles", count_text(input.triangles));
+  }
+  if (input.quadrilaterals > 0) {
+    counts += fmt::format(", {} quadrilaterals", count_text(input.quadrilaterals));
+  }
   if (input.other_cells > 0) {
     counts += fmt::format(", {} other cells", count_text(input.other_cells));
   }
@@ -65,8 +74,9 @@ std::string header(const PipelineOptions& options, const PipelineResult& result,
 /// The outcome in one sentence or two.
 std::string lead(const PipelineResult& result, const RunRecord& record) {
   const QualityReport& last = final_report(result);
+  const auto [one, several] = words_of(last);
   std::string text;
-  if (last.triangles == 0) {
+  if (last.elements() == 0) {
     text = "The mesh has no triangles.";
   } else if (result.smoothing && result.smoothing->moved_vertices == 0) {
     text = std::string(why_nothing_moved(result)) + ". The mesh is as it was.";
@@ -82,17 +92,18 @@ std::string lead(const PipelineResult& result, const RunRecord& record) {
                         result.smoothing->sweeps == 1 ? "" : "s", describe(result.smoothing->stop_reason));
   }
   if (last.inverted > 0) {
-    text += fmt::format(" {} of {} triangles {} inverted.", count_text(last.inverted), count_text(last.triangles),
+    text += fmt::format(" {} of {} {} {} inverted.", count_text(last.inverted), count_text(last.elements()), several,
                         result.smoothing ? "are still" : "are");
-  } else if (last.triangles > 0) {
-    text += " No triangle is inverted.";
+  } else if (last.elements() > 0) {
+    text += fmt::format(" No {} is inverted.", one);
   }
   if (const std::string quadratic = quadratic_text(result); !quadratic.empty()) {
     text += " " + quadratic;
   }
   if (last.degenerate > 0) {
-    text += fmt::format(" {} without area.",
-                        last.degenerate == 1 ? "1 triangle is" : count_text(last.degenerate) + " triangles are");
+    text += fmt::format(" {} without area.", last.degenerate == 1
+                                                 ? fmt::format("1 {} is", one)
+                                                 : fmt::format("{} {} are", count_text(last.degenerate), several));
   }
   const auto failed = std::ranges::count(record.gates, false, &GateOutcome::passed);
   if (failed > 0) {
@@ -127,29 +138,33 @@ std::string metric_card(const PipelineResult& result, std::string_view label, Me
   return card(label, change(result, texts.before, texts.after), detail);
 }
 
-std::string size_card(const SizeChange& change) {
+std::string size_card(const SizeChange& change, std::string_view elements) {
   const std::string left_out =
       change.left_out > 0 ? fmt::format("; {} not valid before or after left out", count_text(change.left_out)) : "";
-  return card(
-      "Areas, after by before", fmt::format("{:.3g} to {:.3g}", change.ratio_p1, change.ratio_p99),
-      fmt::format("98 % of the triangles; root mean square of the logarithm {:.3g}{}", change.rms_log_ratio, left_out));
+  return card("Areas, after by before", fmt::format("{:.3g} to {:.3g}", change.ratio_p1, change.ratio_p99),
+              fmt::format("98 % of the {}; root mean square of the logarithm {:.3g}{}", elements, change.rms_log_ratio,
+                          left_out));
 }
 
 std::string cards(const PipelineResult& result) {
   const QualityReport& last = final_report(result);
-  std::string html =
-      metric_card(result, "Smallest shape", Metric::shape, &MetricSummary::min, "", "1 is equilateral, 0 degenerate");
-  html += metric_card(result, "Mean shape", Metric::shape, &MetricSummary::mean, "",
-                      percent_text(last[Metric::shape].acceptable_fraction) + " % of the triangles are acceptable");
+  const std::string elements(words_of(last).several);
+  std::string html = metric_card(result, "Smallest shape", Metric::shape, &MetricSummary::min, "",
+                                 last.quadrilaterals == 0 ? "1 is equilateral, 0 degenerate"
+                                 : last.triangles == 0    ? "1 is a square, 0 degenerate"
+                                                          : "1 is equilateral, or a square; 0 degenerate");
+  html +=
+      metric_card(result, "Mean shape", Metric::shape, &MetricSummary::mean, "",
+                  percent_text(last[Metric::shape].acceptable_fraction) + " % of the " + elements + " are acceptable");
   html += metric_card(result, "Smallest angle", Metric::min_angle, &MetricSummary::min, "°",
                       "largest angle " + number_text(last[Metric::max_angle].max, decimals(Metric::max_angle)) + "°");
   const std::string inverted =
       fmt::format("<span class=\"{}\">{}</span>", last.inverted > 0 ? "bad" : "good", count_text(last.inverted));
   html += card(
-      "Inverted triangles",
+      "Inverted " + elements,
       result.after ? fmt::format("<span class=\"from\">{} →</span> {}", count_text(result.before.inverted), inverted)
                    : inverted,
-      fmt::format("of {}; {} degenerate", count_text(last.triangles),
+      fmt::format("of {}; {} degenerate", count_text(last.elements()),
                   result.after && result.before.degenerate != last.degenerate
                       ? fmt::format("{} → {}", count_text(result.before.degenerate), count_text(last.degenerate))
                       : count_text(last.degenerate)));
@@ -162,7 +177,7 @@ std::string cards(const PipelineResult& result) {
                                              input.regions == 1 ? "1 region" : count_text(input.regions) + " regions",
                                              escape_html(input.region_array))));
   if (result.size_change && result.size_change->triangles > 0) {
-    html += size_card(*result.size_change);
+    html += size_card(*result.size_change, elements);
   }
   if (result.size_fit_before && result.size_fit_after) {
     html += card("Sizes off those asked for",
@@ -426,7 +441,7 @@ std::string footer(const PipelineResult& result, const RunRecord& record) {
 std::string body(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
   std::string html = header(options, result, record) + lead(result, record);
   const QualityReport* const after = after_of(result);
-  if (result.before.triangles > 0) {
+  if (result.before.elements() > 0) {
     html += cards(result);
   }
   if (!record.gates.empty()) {
@@ -436,7 +451,7 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
     html += html_section(result.deformation->steps.size() == 1 ? "How it followed its boundary" : "Steps",
                          steps_table(*result.deformation));
   }
-  if (result.before.triangles > 0) {
+  if (result.before.elements() > 0) {
     html +=
         html_section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
     html += html_section("Distribution of shape", histogram(result));

@@ -62,6 +62,7 @@ Json input_json(const InputSummary& input) {
           {"format", name_of(input.format)},
           {"vertices", input.vertices},
           {"triangles", input.triangles},
+          {"quadrilaterals", input.quadrilaterals},
           {"other_cells", input.other_cells},
           {"quadratic_triangles", input.quadratic_triangles},
           {"middle_nodes", input.middle_nodes},
@@ -91,14 +92,15 @@ Json input_json(const InputSummary& input) {
             {"several", held.several}}}};
 }
 
-Json options_json(const PipelineOptions& options, const std::optional<SmoothingResult>& result) {
+Json options_json(const PipelineOptions& options, const PipelineResult& run) {
+  const std::optional<SmoothingResult>& result = run.smoothing;
   const SmoothingOptions& smoothing = options.smoothing;
   const MeanRatioOptions& mean_ratio = smoothing.mean_ratio;
   const bool is_mean_ratio = smoothing.method == Method::mean_ratio;
   const auto& written = options.written();
   Json annotated = Json::array();
   for (const Metric metric : options.annotated_metrics) {
-    annotated.push_back(std::string(info(metric).name));
+    annotated.push_back(std::string(metrics_of_any_kind()[static_cast<std::size_t>(metric)]->name));
   }
   if (options.annotated_size_ratio) {
     annotated.push_back(std::string(size_ratio_info.name));
@@ -114,7 +116,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"topology", name_of(smoothing.topology)},
           {"precision", name_of(smoothing.precision)},
           {"guard", smoothing.guard},
-          {"untangle", name_of(smoothing.untangles() ? Untangle::on : Untangle::off)},
+          {"untangle", name_of(smoothing.untangles() && run.input.quadrilaterals == 0 ? Untangle::on : Untangle::off)},
           {"layers", name_of(smoothing.layers)},
           {"threads", result ? result->threads : smoothing.threads},
           {"max_sweeps", smoothing.max_sweeps},
@@ -126,6 +128,7 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"target", is_mean_ratio ? name_of(mean_ratio.target) : Json(nullptr)},
           {"steady", is_mean_ratio ? Json(mean_ratio.steady) : Json(nullptr)},
           {"size_array", is_mean_ratio ? text_or_null(options.size_array) : Json(nullptr)},
+          {"quads", name_of(options.quads)},
           {"slide", name_of(options.slide.along)},
           {"corner_angle", number_json(options.slide.corner_angle)},
           {"deviation", number_json(options.slide.deviation)},
@@ -146,16 +149,36 @@ Json options_json(const PipelineOptions& options, const std::optional<SmoothingR
           {"annotated_metrics", annotates ? std::move(annotated) : Json(nullptr)}};
 }
 
+Json summary_json(const MetricSummary& summary) {
+  return {{"min", number_json(summary.min)},
+          {"mean", number_json(summary.mean)},
+          {"max", number_json(summary.max)},
+          {"stddev", number_json(summary.stddev)},
+          {"acceptable_fraction", number_json(summary.acceptable_fraction)}};
+}
+
+/// Of the elements of each kind, where there are quadrilaterals.
+Json kinds_json(const QualityReport& report) {
+  Json kinds = Json::array();
+  for (const KindQuality& kind : report.kinds) {
+    Json metrics = Json::object();
+    for (const MetricInfo& metric : all_metrics(kind.kind)) {
+      metrics[std::string(metric.name)] = summary_json(kind[metric.metric]);
+    }
+    kinds.push_back({{"kind", kind.kind == ElementKind::triangle ? "triangle" : "quadrilateral"},
+                     {"elements", kind.elements},
+                     {"inverted", kind.inverted},
+                     {"degenerate", kind.degenerate},
+                     {"metrics", std::move(metrics)}});
+  }
+  return kinds;
+}
+
 /// `names`: of regions.
 Json quality_json(const QualityReport& report, const std::vector<std::string>& names) {
   Json metrics = Json::object();
   for (const MetricInfo* const metric : metrics_of(report)) {
-    const MetricSummary& summary = summary_of(report, *metric);
-    metrics[std::string(metric->name)] = {{"min", number_json(summary.min)},
-                                          {"mean", number_json(summary.mean)},
-                                          {"max", number_json(summary.max)},
-                                          {"stddev", number_json(summary.stddev)},
-                                          {"acceptable_fraction", number_json(summary.acceptable_fraction)}};
+    metrics[std::string(metric->name)] = summary_json(summary_of(report, *metric));
   }
   Json worst = Json::array();
   for (const WorstElement& element : report.worst) {
@@ -166,9 +189,11 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
                      {"all_fixed", element.all_fixed}});
   }
   return {{"triangles", report.triangles},
+          {"quadrilaterals", report.quadrilaterals},
           {"inverted", report.inverted},
           {"degenerate", report.degenerate},
           {"metrics", std::move(metrics)},
+          {"kinds", kinds_json(report)},
           {"histogram", {{"shape", report.shape_histogram}}},
           {"worst", std::move(worst)}};
 }
@@ -194,6 +219,7 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
     const RegionQuality& quality = qualities[r];
     regions.push_back({{"region", names[r]},
                        {"triangles", quality.triangles},
+                       {"quadrilaterals", quality.quadrilaterals},
                        {"inverted", quality.inverted},
                        {"shape", {{"min", number_json(quality.min_shape)}, {"mean", number_json(quality.mean_shape)}}},
                        {"min_angle", {{"min", number_json(quality.min_angle)}}}});
@@ -350,7 +376,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"date", record.date},
       {"command", record.command},
       {"input", input_json(result.input)},
-      {"options", options_json(options, result.smoothing)},
+      {"options", options_json(options, result)},
       {"before", quality_json(result.before, result.region_names, result.regions_before, result.quadratic_before)},
       {"after", result.after
                     ? quality_json(*result.after, result.region_names, result.regions_after, result.quadratic_after)

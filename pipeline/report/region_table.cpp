@@ -39,21 +39,21 @@ std::vector<std::size_t> worst_regions(const PipelineResult& result, std::size_t
   return shown;
 }
 
-/// The numbers of a region as texts: triangles, inverted, smallest shape, mean shape, smallest angle; all but the first
+/// The numbers of a region as texts: elements, inverted, smallest shape, mean shape, smallest angle; all but the first
 /// twice where the mesh was smoothed.
 std::vector<std::string> cells_of(const PipelineResult& result, std::size_t region) {
   const RegionQuality& before = result.regions_before[region];
   const int shape_decimals = decimals(Metric::shape);
   const int angle_decimals = decimals(Metric::min_angle);
   if (result.regions_after.empty()) {
-    return {count_text(before.triangles), count_text(before.inverted), number_text(before.min_shape, shape_decimals),
+    return {count_text(before.elements()), count_text(before.inverted), number_text(before.min_shape, shape_decimals),
             number_text(before.mean_shape, shape_decimals), number_text(before.min_angle, angle_decimals)};
   }
   const RegionQuality& after = result.regions_after[region];
   const TextPair min_shape = distinct_texts(before.min_shape, after.min_shape, shape_decimals);
   const TextPair mean_shape = distinct_texts(before.mean_shape, after.mean_shape, shape_decimals);
   const TextPair min_angle = distinct_texts(before.min_angle, after.min_angle, angle_decimals);
-  return {count_text(before.triangles),
+  return {count_text(before.elements()),
           count_text(before.inverted),
           count_text(after.inverted),
           min_shape.before,
@@ -70,6 +70,10 @@ std::string short_name(const std::string& name, std::size_t most) {
     text += c >= ' ' && c <= '~' ? c : '?';
   }
   return text.size() > most ? text.substr(0, most - 2) + ".." : text;
+}
+
+std::string elements_of(const PipelineResult& result) {
+  return std::string(element_words(result.before.triangles, result.before.quadrilaterals).several);
 }
 
 }  // namespace
@@ -98,7 +102,7 @@ std::string region_table(const PipelineResult& result, std::size_t most) {
   using Align = TextColumns::Align;
   const bool smoothed = !result.regions_after.empty();
   std::vector<TextColumns::Column> columns{{0, Align::left}, {2}};
-  std::vector<std::string> head{"region", "triangles"};
+  std::vector<std::string> head{"region", elements_of(result)};
   std::vector<TextColumns::Title> titles;
   if (smoothed) {
     columns.insert(columns.end(), {{1}, {1}, {1}, {1}, {1}, {1}, {1}, {1}});
@@ -130,7 +134,8 @@ std::string region_table(const PipelineResult& result, std::size_t most) {
 std::string region_table_html(const PipelineResult& result) {
   const bool smoothed = !result.regions_after.empty();
   static constexpr std::array<const char*, 4> titles{"inverted", "min shape", "mean shape", "min angle"};
-  std::string html = "<table class=\"stack wrap\">\n<thead><tr><th>region</th><th>triangles</th>";
+  const std::string elements = elements_of(result);
+  std::string html = "<table class=\"stack wrap\">\n<thead><tr><th>region</th><th>" + elements + "</th>";
   for (const char* const title : titles) {
     html += smoothed ? fmt::format("<th class=\"start\">{0}, before</th><th>{0}, after</th>", title)
                      : fmt::format("<th>{}</th>", title);
@@ -139,7 +144,7 @@ std::string region_table_html(const PipelineResult& result) {
   for (std::size_t region = 0; region < result.region_names.size(); ++region) {
     html += "<tr>" + html_cell(escape_html(result.region_names[region]), "text");
     const std::vector<std::string> cells = cells_of(result, region);
-    html += html_cell(cells.front(), "", "triangles");
+    html += html_cell(cells.front(), "", elements);
     for (std::size_t i = 1; i < cells.size(); ++i) {
       const std::size_t title = smoothed ? (i - 1) / 2 : i - 1;
       const bool second = smoothed && i % 2 == 0;

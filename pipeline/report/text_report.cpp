@@ -20,12 +20,17 @@ namespace trismooth {
 namespace {
 
 std::string input_lines(const InputSummary& input, TextDetail detail) {
-  std::string what = fmt::format("{}: {}, {}", input.path.string(), counted(input.vertices, "vertex", "vertices"),
-                                 counted(input.triangles, "triangle", "triangles"));
+  std::string what = fmt::format("{}: {}", input.path.string(), counted(input.vertices, "vertex", "vertices"));
+  if (input.triangles > 0 || input.quadrilaterals == 0) {
+    what += ", " + counted(input.triangles, "triangle", "triangles");
+  }
   if (input.quadratic_triangles > 0) {
     what += input.quadratic_triangles == input.triangles
                 ? std::string(" of six nodes")
                 : fmt::format(", {} of them of six nodes", input.quadratic_triangles);
+  }
+  if (input.quadrilaterals > 0) {
+    what += ", " + counted(input.quadrilaterals, "quadrilateral", "quadrilaterals");
   }
   if (input.other_cells > 0) {
     what += ", " + counted(input.other_cells, "other cell", "other cells");
@@ -35,8 +40,11 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
   }
   std::string text = labelled_line("input:", what);
   if (input.reoriented_triangles > 0 && detail == TextDetail::all) {
-    text += labelled_line("", fmt::format("{} listed clockwise against the rest: taken as turned, kept so in the file",
-                                          counted(input.reoriented_triangles, "triangle is", "triangles are")));
+    const auto [one, several] = element_words(input.triangles, input.quadrilaterals);
+    text +=
+        labelled_line("", fmt::format("{} {} listed clockwise against the rest: taken as turned, kept so in the file",
+                                      counted(input.reoriented_triangles, one, several),
+                                      input.reoriented_triangles == 1 ? "is" : "are"));
   }
   if (!input.region_array.empty() && detail == TextDetail::all) {
     text += labelled_line("regions:", fmt::format("{} by the cell array{} '{}'", input.regions,
@@ -195,10 +203,11 @@ std::string inverted_line(const PipelineResult& result) {
   if (before == 0) {
     return {};
   }
+  const auto [one, several] = element_words(result.before.triangles, result.before.quadrilaterals);
   if (!result.after) {
-    return fmt::format("{} inverted.\n", counted(before, "triangle is", "triangles are"));
+    return fmt::format("{} {} inverted.\n", counted(before, one, several), before == 1 ? "is" : "are");
   }
-  return result.after->inverted == 0 ? fmt::format("No inverted triangles remain ({} before).\n", before) : "";
+  return result.after->inverted == 0 ? fmt::format("No inverted {} remain ({} before).\n", several, before) : "";
 }
 
 std::string quadratic_lines(const PipelineResult& result) {
@@ -282,7 +291,7 @@ std::string_view why_nothing_moved(const PipelineResult& result) {
   if (result.smoothing->moved_vertices > 0 || result.deformation) {
     return {};
   }
-  if (result.input.triangles == 0) {
+  if (result.input.triangles + result.input.quadrilaterals == 0) {
     return "nothing to smooth: the mesh has no triangles";
   }
   if (result.input.free_vertices == 0 && result.smoothing->sliding.value_or(SlidingResult{}).vertices == 0) {
@@ -368,7 +377,7 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     text += size_fit_line(result);
     text += fields_line(result);
   }
-  const bool is_summary = result.after && detail == TextDetail::summary && result.before.triangles > 0;
+  const bool is_summary = result.after && detail == TextDetail::summary && result.before.elements() > 0;
   text +=
       '\n' +
       (is_summary ? format_summary(result.before, *result.after)

@@ -30,7 +30,7 @@ using FilePoint = Eigen::Map<const Eigen::Vector3d>;
 
 MovingMesh moving_mesh_of(const RunState& run) {
   try {
-    return {run.mesh.points, run.mesh.triangles, {.fixed = run.found.fixed}, run.smoothing};
+    return {run.mesh.points, run.mesh.elements.triangles(), {.fixed = run.found.fixed}, run.smoothing};
   } catch (const MeshError& error) {
     throw ReadError(run.options.input, error.what());
   }
@@ -105,7 +105,8 @@ SmoothingResult Deformer::follow() {
   ++done_;
   run_.enter_frame();
   run_.result.coordinates_hash = run_.result.unguarded_hash = coordinates_hash(run_.document.points);
-  const TriangleView before{file_local_.points, run_.mesh.triangles, run_.found.reversed, file_local_.frame.exponent};
+  const TriangleView before{file_local_.points, run_.mesh.elements.triangles(), run_.found.reversed,
+                            file_local_.frame.exponent};
   run_.result.size_change = size_change(before, run_.view(), run_.options.smoothing.threads);
   return followed_.smoothing;
 }

@@ -28,7 +28,7 @@ QualityReport report_of(const RunState& run) {
   }
   report.degenerate += run.mesh.repeating_triangles;
   for (WorstElement& element : report.worst) {
-    const Triangle& corners = run.mesh.triangles[static_cast<std::size_t>(element.element)];
+    const auto corners = run.mesh.elements[static_cast<std::size_t>(element.element)];
     if (run.regions.count() > 1) {
       element.region = run.regions.of_triangle[static_cast<std::size_t>(element.element)];
     }

@@ -37,19 +37,28 @@ std::vector<std::int32_t> moved_vertices(std::span<const Point2<double>> before,
 }
 
 /// The triangles in which fields are linear, with their regions: those of the mesh, but in place of one of six nodes
-/// the four between its nodes.
+/// the four between its nodes, and in place of a quadrilateral the two that its shorter diagonal makes of it.
 class FieldTriangles {
  public:
-  FieldTriangles(const PlanarMesh& mesh, std::span<const std::int32_t> regions)
-      : triangles_(mesh.triangles), regions_(regions) {
-    if (mesh.quadratics.empty()) {
+  /// `points`: where the vertices are at which the values are known.
+  FieldTriangles(const PlanarMesh& mesh, std::span<const Point2<double>> points, std::span<const std::int32_t> regions)
+      : triangles_(mesh.elements.triangles()), regions_(regions) {
+    if (mesh.quadratics.empty() && mesh.elements.are_triangles()) {
       return;
     }
-    parts_.reserve(mesh.triangles.size() + 3 * mesh.quadratics.size());
+    parts_.reserve((mesh.elements.are_triangles() ? 1 : 2) * mesh.elements.size() + 3 * mesh.quadratics.size());
     auto quadratic = mesh.quadratics.begin();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const auto [a, b, c] = mesh.triangles[t];
-      if (quadratic != mesh.quadratics.end() && static_cast<std::size_t>(quadratic->triangle) == t) {
+    for (std::size_t t = 0; t < mesh.elements.size(); ++t) {
+      const auto corners = mesh.elements[t];
+      const std::int32_t a = corners[0];
+      const std::int32_t b = corners[1];
+      const std::int32_t c = corners[2];
+      if (corners.size() == 4) {
+        const std::int32_t d = corners[3];
+        const bool by_ac = squared_length(points[c] - points[a]) <= squared_length(points[d] - points[b]);
+        parts_.push_back(by_ac ? Triangle{a, b, c} : Triangle{a, b, d});
+        parts_.push_back(by_ac ? Triangle{a, c, d} : Triangle{b, c, d});
+      } else if (quadratic != mesh.quadratics.end() && static_cast<std::size_t>(quadratic->triangle) == t) {
         const auto [ab, bc, ca] = quadratic->middles;
         parts_.insert(parts_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
         ++quadratic;
@@ -154,7 +163,7 @@ void move_fields(RunState& run, const LocalPoints& input) {
   const Stopwatch watch;
   const LocalPoints after = entered(input.frame, run.mesh.points);
   const std::vector<std::int32_t> moved = moved_vertices(input.points, after.points);
-  const FieldTriangles mesh(run.mesh, run.regions.of_triangle);
+  const FieldTriangles mesh(run.mesh, input.points, run.regions.of_triangle);
   const PointLocation location(input.points, mesh.triangles(), mesh.regions());
   std::vector<MeshPlace> places = location.places_of(moved, after.points, run.workers);
   place_merged(run.mesh, moved, places);

@@ -133,11 +133,15 @@ std::string growth_note(const TriangleView& before, const TriangleView& now, std
   return {};
 }
 
-void note_growth_bound(RunState& run, const TriangleView& before) {
-  if (!may_have_growth_note(run.smoothing, run.result.before)) {
+void note_growth_bound(RunState& run, const MeshView& mesh_before) {
+  if (!may_have_growth_note(run.smoothing, run.result.before) || !run.mesh.elements.are_triangles()) {
     return;
   }
-  const TriangleView now = run.view();
+  const auto triangles_of = [](const MeshView& view) {
+    return TriangleView{view.points, view.elements.triangles(), view.reversed, view.exponent};
+  };
+  const TriangleView before = triangles_of(mesh_before);
+  const TriangleView now = triangles_of(run.view());
   const WorstTriangle worst = worst_with_free_corner(now, run.found.fixed, [](std::size_t) { return true; });
   if (worst.triangle < 0) {
     return;

@@ -19,8 +19,8 @@ namespace trismooth {
 
 namespace {
 
-/// What the user should know of vertices that are held where triangles meet irregularly, one sentence each.
-std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts) {
+/// What the user should know of vertices that are held where elements meet irregularly, one sentence each.
+std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts, const std::string& elements) {
   std::int64_t non_manifold = 0;
   std::int64_t bow_ties = 0;  // beside the ends of non-manifold edges, which join several fans as well
   for (std::size_t reasons = 0; reasons < counts.size(); ++reasons) {
@@ -34,22 +34,23 @@ std::vector<std::string> notes_of_irregular_vertices(const ReasonCounts& counts)
       notes.push_back(counted(count, "vertex ", "vertices ") + where + ": held fixed");
     }
   };
-  note(non_manifold, "on edges of three triangles or more");
-  note(bow_ties, "where triangles meet without sharing an edge (bow ties)");
+  note(non_manifold, "on edges of three " + elements + " or more");
+  note(bow_ties, "where " + elements + " meet without sharing an edge (bow ties)");
   return notes;
 }
 
 }  // namespace
 
 bool are_apart(const MeshFacts& facts) {
-  return facts.reasons[0] == 0 && facts.triangles > 1 && facts.components == facts.triangles;
+  return facts.reasons[0] == 0 && facts.elements > 1 && facts.components == facts.elements;
 }
 
 void summarise_mesh(RunContext& run, const MeshFacts& facts) {
   PipelineResult& result = run.result;
   InputSummary& input = result.input;
   input.vertices = facts.vertices;
-  input.triangles = facts.triangles;
+  input.triangles = facts.elements - facts.quadrilaterals;
+  input.quadrilaterals = facts.quadrilaterals;
   input.other_cells = facts.other_cells;
   input.regions = facts.regions.count();
   input.region_arrays = facts.regions.arrays;
@@ -63,7 +64,8 @@ void summarise_mesh(RunContext& run, const MeshFacts& facts) {
   input.layers = facts.layers;
   input.fixed_ids = run.options.fixed_ids.value_or(std::filesystem::path{});
   result.notes.insert(result.notes.begin(), facts.regions.notes.begin(), facts.regions.notes.end());
-  std::ranges::move(notes_of_irregular_vertices(facts.reasons), std::back_inserter(result.notes));
+  std::ranges::move(notes_of_irregular_vertices(facts.reasons, facts.quadrilaterals > 0 ? "elements" : "triangles"),
+                    std::back_inserter(result.notes));
   if (std::string note = note_of_layers(facts.layers); !note.empty()) {
     run.note(std::move(note));
   }

@@ -14,7 +14,8 @@ struct RunContext;
 /// What is found of a mesh when it is connected, of the whole of it.
 struct MeshFacts {
   std::int64_t vertices = 0;
-  std::int64_t triangles = 0;
+  std::int64_t elements = 0;
+  std::int64_t quadrilaterals = 0;  ///< of the elements
   std::int64_t other_cells = 0;
   std::int64_t components = 0;
   std::int64_t reoriented_triangles = 0;
@@ -23,10 +24,10 @@ struct MeshFacts {
   const Regions& regions;
 };
 
-/// Whether no two triangles share a side, so that nothing is free: something has gone wrong where the mesh was made.
+/// Whether no two elements share a side, so that nothing is free: something has gone wrong where the mesh was made.
 bool are_apart(const MeshFacts& facts);
 
-/// Puts them into the result, with what is to be said of regions, of vertices where triangles meet irregularly and of
+/// Puts them into the result, with what is to be said of regions, of vertices where elements meet irregularly and of
 /// layers.
 void summarise_mesh(RunContext& run, const MeshFacts& facts);
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/local_points.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/mesh_io/mesh_document.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
@@ -35,8 +35,8 @@ struct RunState : RunContext {
 
   /// Brings the points of the mesh into the local frame of those that cells use.
   void enter_frame();
-  /// The triangles at `local`.
-  TriangleView view() const { return {local.points, mesh.triangles, found.reversed, local.frame.exponent}; }
+  /// The elements at `local`.
+  MeshView view() const { return {local.points, mesh.elements, found.reversed, local.frame.exponent}; }
 };
 
 }  // namespace trismooth

@@ -53,7 +53,7 @@ void hash_coordinates(RunState& run, std::span<const double> read, std::span<con
   run.result.unguarded_hash = coordinates_hash(unguarded);
 }
 
-void compare_sizes(RunState& run, const TriangleView& before) {
+void compare_sizes(RunState& run, const MeshView& before) {
   const Stopwatch watch;
   PipelineResult& result = run.result;
   const int threads = run.options.smoothing.threads;
@@ -70,7 +70,7 @@ void compare_sizes(RunState& run, const TriangleView& before) {
 }
 
 /// Where vertices may slide.
-void compare_areas(RunState& run, const TriangleView& before) {
+void compare_areas(RunState& run, const MeshView& before) {
   const Stopwatch watch;
   const std::int32_t count = std::max(run.regions.count(), 1);
   const std::vector<double> areas_before = region_areas(before, run.regions.of_triangle, count);
@@ -88,10 +88,10 @@ SmoothingResult smooth_points(RunState& run) {
   std::vector<double>& xyz = run.document.points;
   const Storage storage = storage_of(run.document);
   if (!mesh.map && !is_stored_otherwise(run)) {
-    return smooth_in_plane(run.found, mesh.triangles, mesh.plane, xyz, mesh.points, run.local, storage, run.smoothing);
+    return smooth_in_plane(run.found, mesh.elements, mesh.plane, xyz, mesh.points, run.local, storage, run.smoothing);
   }
   const bool is_plain = !mesh.map && mesh.plane.aligned;
-  return smooth_in_image(run.found, mesh.triangles, mesh.quadratics, mesh.middles, stored_image(run), xyz, mesh.points,
+  return smooth_in_image(run.found, mesh.elements, mesh.quadratics, mesh.middles, stored_image(run), xyz, mesh.points,
                          run.local, is_plain ? storage : Storage::float64, run.smoothing);
 }
 
@@ -129,7 +129,7 @@ SmoothingResult smooth_mesh(RunState& run) {
   warn_of_folds_put_back(run, smoothing);
   move_fields(run, input);
   hash_coordinates(run, points_read, before_merging, smoothing);
-  const TriangleView before{input.points, run.mesh.triangles, input_reversed, input.frame.exponent};
+  const MeshView before{input.points, run.mesh.elements, input_reversed, input.frame.exponent};
   compare_sizes(run, before);
   warn_of_sizes_out_of_reach(run, smoothing);
   note_growth_bound(run, before);

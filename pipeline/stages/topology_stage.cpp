@@ -130,6 +130,43 @@ void merge_near_corners(RunState& run) {
            " with another one within the distance of --merge; the file keeps all of them");
 }
 
+/// Whether quadrilaterals are smoothed in this run; of those that have to be held although that is asked for a note
+/// says why.
+Quads settled_quads(RunState& run) {
+  const PipelineOptions& options = run.options;
+  const auto is_quad = [&](std::size_t cell) {
+    return quad_of_cell(run.document.cells.types[cell], run.document.cells[cell]).has_value();
+  };
+  const Backend& backend = backend_of(run.smoothing);
+  const std::string reason =
+      options.deformation      ? "a mesh that follows its boundary moves by its triangles alone"
+      : options.halfedge_stage ? "the program's own stage has triangles alone, as halfedges"
+      : run.smoothing.topology == Topology::halfedge
+          ? "halfedges are those of triangles alone; without --topology halfedge they are smoothed"
+      : !backend.takes_quadrilaterals() ? "backend '" + backend.name() + "' smooths triangles alone"
+                                        : std::string();
+  if (options.quads == Quads::hold || reason.empty()) {
+    return options.quads;
+  }
+  std::int64_t quads = 0;
+  for (std::size_t cell = 0; cell < run.document.cells.size(); ++cell) {
+    quads += is_quad(cell) ? 1 : 0;
+  }
+  if (quads > 0) {
+    run.note(counted(quads, "quadrilateral is", "quadrilaterals are") + " held: " + reason);
+  }
+  return Quads::hold;
+}
+
+/// Throws std::invalid_argument where what is asked for is not done with quadrilaterals.
+void require_triangles_for_options(const RunState& run) {
+  if (run.options.output && run.smoothing.untangle == Untangle::on && !run.mesh.elements.are_triangles()) {
+    throw std::invalid_argument(
+        "--untangle on is of triangles alone, and the mesh has quadrilaterals; smoothing by --method laplacian first "
+        "mends many, and --quads hold leaves them as they are");
+  }
+}
+
 /// Finds whether vertices of this mesh can slide where the options want it.
 void settle_sliding(RunState& run) {
   if (run.options.slide.along == Slide::off) {
@@ -141,6 +178,8 @@ void settle_sliding(RunState& run) {
   }
   if (!run.mesh.quadratics.empty()) {
     run.note("the mesh has quadratic triangles, whose sides have middles: no vertex slides");
+  } else if (!run.mesh.elements.are_triangles()) {
+    run.note("the mesh has quadrilaterals, with which no vertex slides; with --quads hold those of triangles do");
   } else if (!run.mesh.plane.aligned) {
     run.note("the mesh lies in a tilted plane, where rounding takes points off their lines: no vertex slides");
   } else if (run.document.most_coordinate_characters > 0) {
@@ -191,7 +230,7 @@ bool goes_by_halfedges(const RunState& run) {
   constexpr std::size_t most_triangles = 16'000'000;
   return run.smoothing.topology == Topology::halfedge ||
          (run.smoothing.topology != Topology::host && run.options.output && has_halfedges() &&
-          run.mesh.triangles.size() <= most_triangles);
+          run.mesh.elements.are_triangles() && run.mesh.elements.size() <= most_triangles);
 }
 
 /// `halfedges`: where the mesh has been connected by them already.
@@ -203,13 +242,13 @@ MeshRings rings_of(RunState& run, const Constraints& constraints, std::unique_pt
     if (halfedges == nullptr && goes_by_halfedges(run)) {
       halfedges = connect_by_halfedges(run);
     }
-    return halfedges == nullptr ? find_mesh_rings(run.local.points, mesh.triangles, constraints, run.workers, layers)
+    return halfedges == nullptr ? find_mesh_rings(run.local.points, mesh.elements, constraints, run.workers, layers)
                                 : halfedges->rings(run, constraints, layers);
   };
   try {
     return halfedges != nullptr
                ? on_host()
-               : rings_for(run.options.smoothing, run.local.points, mesh.triangles, constraints, on_host);
+               : rings_for(run.options.smoothing, run.local.points, mesh.elements, constraints, on_host);
   } catch (const MeshError& error) {
     throw ReadError(run.options.input, error.what());
   }
@@ -227,8 +266,10 @@ void connect_mesh(RunState& run) {
   PlanarMesh& mesh = run.mesh;
   PipelineResult& result = run.result;
   InputSummary& input = result.input;
-  mesh = options.project ? projected_mesh(document, options.input, run.workers)
-                         : planar_mesh(document, options.input, run.workers);
+  const Quads quads = settled_quads(run);
+  mesh = options.project ? projected_mesh(document, options.input, run.workers, quads)
+                         : planar_mesh(document, options.input, run.workers, quads);
+  require_triangles_for_options(run);
   if (options.geographic) {
     lay_on_map(mesh, document, options.input);
   } else if (looks_geographic(mesh, document)) {
@@ -241,7 +282,7 @@ void connect_mesh(RunState& run) {
   find_sizes(run);
   run.regions = find_regions(document, mesh, options.region_arrays, run.sizes.of_cells ? run.sizes.array : "");
   const FixedArray named = find_fixed_array(document, options.fixed_array);
-  HeldSets sets = find_held_sets(document, mesh.triangles, options.fixed_sets, run.regions.of_triangle,
+  HeldSets sets = find_held_sets(document, mesh.elements, options.fixed_sets, run.regions.of_triangle,
                                  options.slide.along != Slide::off);
   std::ranges::move(sets.notes, std::back_inserter(result.notes));
   std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
@@ -283,7 +324,8 @@ void connect_mesh(RunState& run) {
   input.middle_nodes = std::ssize(mesh.middles);
   result.topology = run.found.found_by;
   const MeshFacts facts{.vertices = input.vertices,
-                        .triangles = std::ssize(mesh.triangles),
+                        .elements = static_cast<std::int64_t>(mesh.elements.size()),
+                        .quadrilaterals = mesh.count_quadrilaterals(),
                         .other_cells = mesh.other_cells,
                         .components = run.found.components,
                         .reoriented_triangles = run.found.reoriented_triangles,
@@ -292,7 +334,7 @@ void connect_mesh(RunState& run) {
                         .regions = run.regions};
   summarise_mesh(run, facts);
   if (are_apart(facts)) {
-    run.note(describe_apart_triangles(mesh.points, mesh.triangles));
+    run.note(describe_apart_elements(mesh.points, mesh.elements));
   }
   input.fixed_array = named.array;
   input.fixed_array_vertices = named.vertices;

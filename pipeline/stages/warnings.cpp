@@ -18,6 +18,7 @@
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/stages/run_context.h"
 #include "trismooth/pipeline/stages/staged_mesh.h"
+#include "trismooth/quality/report_text.h"
 
 namespace trismooth {
 
@@ -39,9 +40,9 @@ void warn_of_projection(RunContext& run) {
   const QualityReport& before = run.result.before;
   if (run.options.project && before.inverted + before.degenerate > 0) {
     run.warn(
-        fmt::format("--project {}: {} of {} triangles lie over others or upright there; the mesh is no function of "
-                    "x and y",
-                    to_string(*run.options.project), before.inverted + before.degenerate, run.result.input.triangles));
+        fmt::format("--project {}: {} of {} {} lie over others or upright there; the mesh is no function of x and y",
+                    to_string(*run.options.project), before.inverted + before.degenerate, before.elements(),
+                    element_words(before.triangles, before.quadrilaterals).several));
   }
 }
 
@@ -50,7 +51,7 @@ std::string warning_of_layers(const LayersResult& layers) {
   return layers.left == 0
              ? std::string()
              : fmt::format(
-                   "{} where triangles are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
+                   "{} where elements are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
                    "all others; if that is on purpose, --layers keep holds {}, and --method mean-ratio "
                    "--target input-shape keeps the shapes",
                    counted(layers.left, "vertex is", "vertices are"), layers.left_aspect,
@@ -105,15 +106,20 @@ std::string note_of_layers(const LayersResult& layers) {
                          held == 1 ? "it" : "them");
 }
 
-std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
+std::vector<std::string> warnings_of_invalid(const PipelineResult& result, Method method) {
   std::vector<std::string> warnings;
   if (result.after && result.after->inverted > 0) {
     const bool is_untangled = result.smoothing && result.smoothing->untangling;
+    const auto [one, several] = element_words(result.before.triangles, result.before.quadrilaterals);
+    const bool is_one = result.after->inverted == 1;
+    const bool has_quads = result.before.quadrilaterals > 0;
     warnings.push_back(fmt::format(
-        "{} ({} before){}", counted(result.after->inverted, "inverted triangle remains", "inverted triangles remain"),
-        result.before.inverted,
-        is_untangled ? "; what held vertices fold nothing mends: let some of them go"
-                     : "; --untangle on mends what can be mended"));
+        "{} inverted {} {} ({} before){}", result.after->inverted, is_one ? one : several,
+        is_one ? "remains" : "remain", result.before.inverted,
+        is_untangled || (has_quads && method == Method::laplacian)
+            ? "; what held vertices fold nothing mends: let some of them go"
+        : has_quads ? "; untangling is of triangles alone, but smoothing by --method laplacian first mends many"
+                    : "; --untangle on mends what can be mended"));
   }
   if (result.quadratic_after && result.quadratic_after->invalid > 0) {
     const QuadraticQuality& after = *result.quadratic_after;

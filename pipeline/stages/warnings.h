@@ -29,9 +29,9 @@ std::string warning_of_options_without_effect(const PipelineOptions& options);
 /// What was held since it is flat on purpose, with the way out; empty where there is nothing.
 std::string note_of_layers(const LayersResult& layers);
 
-/// What is to be said of a result in which triangles are inverted, or triangles of six nodes not valid, with the way
-/// out.
-std::vector<std::string> warnings_of_invalid(const PipelineResult& result);
+/// What is to be said of a result of that method in which elements are inverted, or triangles of six nodes not valid,
+/// with the way out.
+std::vector<std::string> warnings_of_invalid(const PipelineResult& result, Method method);
 
 /// What is carried along since it is flat on purpose, with the way out. There is some.
 std::string note_of_carried_layers(const LayersResult& layers);

@@ -113,6 +113,11 @@ std::optional<Enum> choice_or_none(nb::handle value, const char* name) {
   }
 }
 
+Quads quads_of(nb::handle value) {
+  const std::optional<Quads> quads = choice_or_none<Quads>(value, "quads");
+  return quads.value_or(Quads::smooth);
+}
+
 /// What the program tells of a run beside its figures.
 struct FileOutcome {
   Outcome outcome;
@@ -291,6 +296,8 @@ class FileMesh {
         }
       } else if (name == "merge") {
         options.merge = distance_or_none(value, "merge");
+      } else if (name == "quads") {
+        options.quads = quads_of(value);
       } else if (name == "size") {
         options.size_array = text_or_none(value, "size");
       } else if (name == "fields") {
@@ -346,7 +353,7 @@ int run_program(const std::vector<nb::bytes>& arguments) {
 void bind_files(nb::module_& module) {
   module.attr("has_files") = true;
   make_public(nb::exception<ReadError>(module, "ReadError", PyExc_OSError),
-              "A mesh file that cannot be read, or that is no planar triangle mesh.");
+              "A mesh file that cannot be read, or that is no planar mesh of triangles and quadrilaterals.");
   make_public(nb::exception<WriteError>(module, "WriteError", PyExc_OSError),
               "A file that cannot be written. What stood there before is untouched.");
   make_public(nb::exception<Cancelled>(module, "Cancelled", PyExc_RuntimeError),

@@ -24,11 +24,11 @@
 #include "trismooth/base/repeated_triangles.h"
 #include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/document/array_names.h"
+#include "trismooth/pipeline/input/element_cells.h"
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/regions.h"
 #include "trismooth/pipeline/input/slide_lines.h"
-#include "trismooth/pipeline/input/triangle_cells.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
 #include "trismooth/python/new_array.h"
@@ -141,28 +141,22 @@ class Document {
   std::vector<std::unique_ptr<HostArray>> arrays_;  ///< whose numbers the document views
 };
 
-/// Arrays have triangles of three nodes or of six: what there is less of becomes other cells.
-void keep_one_kind(TriangleCells& cells) {
-  const std::size_t all = cells.triangles.size();
+/// Arrays have triangles of six nodes, or other elements: what there is less of becomes other cells.
+void keep_one_kind(ElementCells& cells) {
+  const std::size_t all = cells.elements.size();
   const std::size_t quadratic = cells.quadratics.size();
   if (quadratic == 0 || quadratic == all) {
     return;
   }
   const bool keeps_six = quadratic > all - quadratic;
-  std::vector<Triangle> triangles;
-  BulkVector<std::int32_t> kept_cells;
-  std::vector<QuadraticTriangle> quadratics;
+  const std::string left_kind = keeps_six ? kind_of_elements(cells) : "triangle";
+  std::vector<std::int32_t> left;
   auto next = cells.quadratics.begin();
-  for (std::size_t t = 0; t < all; ++t) {
-    const bool has_six = next != cells.quadratics.end() && std::cmp_equal(next->triangle, t);
-    if (has_six == keeps_six) {
-      if (has_six) {
-        quadratics.push_back({static_cast<std::int32_t>(triangles.size()), next->middles});
-      }
-      triangles.push_back(cells.triangles[t]);
-      kept_cells.push_back(cells.cells[t]);
-    } else {
-      for (const std::int32_t v : cells.triangles[t]) {
+  for (std::size_t e = 0; e < all; ++e) {
+    const bool has_six = next != cells.quadratics.end() && std::cmp_equal(next->triangle, e);
+    if (has_six != keeps_six) {
+      left.push_back(static_cast<std::int32_t>(e));
+      for (const std::int32_t v : cells.elements[e]) {
         cells.in_other_cell[static_cast<std::size_t>(v)] = 1;
       }
       for (std::size_t k = 0; has_six && k < 3; ++k) {
@@ -171,39 +165,37 @@ void keep_one_kind(TriangleCells& cells) {
     }
     next += has_six ? 1 : 0;
   }
-  const std::size_t left = all - triangles.size();
-  cells.other_cells += static_cast<std::int64_t>(left);
-  cells.notes.push_back(counted(left, "triangle", "triangles") + (keeps_six ? " of three" : " of six") +
-                        " nodes among more of " + (keeps_six ? "six" : "three") +
-                        ": kept as they are, their vertices held fixed");
-  cells.triangles_of_cells = std::move(triangles);
-  cells.triangles = cells.triangles_of_cells;
-  cells.cells = std::move(kept_cells);
-  cells.quadratics = std::move(quadratics);
+  leave_out(cells, left);
+  cells.other_cells += std::ssize(left);
+  cells.notes.push_back(counted(left.size(), left_kind, left_kind + "s") +
+                        (keeps_six ? " of order 1" : " of six nodes") + " among more " +
+                        (keeps_six ? "of six nodes" : "of order 1") + ": kept as they are, their vertices held fixed");
 }
 
-/// The nodes of the triangles, row by row.
-nb::object nodes_of(const TriangleCells& cells) {
+/// The nodes of the elements, row by row: three, or four with -1 in the last place of a triangle, or six.
+nb::object nodes_of(const ElementCells& cells) {
   const bool has_six = !cells.quadratics.empty();
+  const std::size_t columns = has_six ? 6 : cells.elements.are_triangles() ? 3 : 4;
   std::vector<std::int32_t> nodes;
-  nodes.reserve(cells.triangles.size() * (has_six ? 6 : 3));
-  for (std::size_t t = 0; t < cells.triangles.size(); ++t) {
-    nodes.insert(nodes.end(), cells.triangles[t].begin(), cells.triangles[t].end());
+  nodes.reserve(columns * cells.elements.size());
+  for (std::size_t e = 0; e < cells.elements.size(); ++e) {
+    const auto corners = cells.elements[e];
+    nodes.insert(nodes.end(), corners.begin(), corners.end());
     if (has_six) {
-      nodes.insert(nodes.end(), cells.quadratics[t].middles.begin(), cells.quadratics[t].middles.end());
+      nodes.insert(nodes.end(), cells.quadratics[e].middles.begin(), cells.quadratics[e].middles.end());
     }
+    nodes.resize(columns * (e + 1), no_corner);
   }
-  return new_array<std::int32_t, 2>(std::move(nodes), {cells.triangles.size(), has_six ? std::size_t{6} : 3});
+  return new_array<std::int32_t, 2>(std::move(nodes), {cells.elements.size(), columns});
 }
 
-/// The regions of all triangles that are listed, of those of each once.
-std::vector<std::int32_t> of_all_listed(std::vector<std::int32_t> regions, std::span<const Triangle> listed,
-                                        Workers& workers) {
-  if (regions.size() == listed.size() || regions.empty()) {
+/// The regions of all `count` elements that are listed, of those of each once. `repeated`: of all.
+std::vector<std::int32_t> of_all_listed(std::vector<std::int32_t> regions, std::size_t count,
+                                        std::span<const RepeatedTriangle> repeated) {
+  if (regions.size() == count || regions.empty()) {
     return regions;
   }
-  std::vector<std::int32_t> all(listed.size(), -1);
-  const std::vector<RepeatedTriangle> repeated = find_repeated_triangles(listed, workers);
+  std::vector<std::int32_t> all(count, -1);
   auto copy = repeated.begin();
   auto kept = regions.begin();
   for (std::size_t t = 0; t < all.size(); ++t) {
@@ -236,7 +228,7 @@ void unite(std::vector<std::uint8_t>& flags, const std::vector<std::uint8_t>& ot
 /// What holds vertices beside regions and cells.
 class Holds {
  public:
-  Holds(const MeshDocument& document, const TriangleCells& cells, const Regions& regions, bool slides)
+  Holds(const MeshDocument& document, const ElementCells& cells, const Regions& regions, bool slides)
       : document_(document), cells_(cells), regions_(regions), slides_(slides) {}
 
   std::vector<std::uint8_t> by_mesh(std::vector<std::string>& notes) const {
@@ -279,13 +271,13 @@ class Holds {
 
  private:
   HeldSets held_sets(std::span<const std::string> names) const {
-    return find_held_sets(document_, cells_.triangles, names, regions_.of_triangle, slides_);
+    return find_held_sets(document_, cells_.elements, names, regions_.of_triangle, slides_);
   }
 
   bool is_array(const std::string& name) const { return find_array(document_.point_arrays, name) != nullptr; }
 
   const MeshDocument& document_;
-  const TriangleCells& cells_;
+  const ElementCells& cells_;
   const Regions& regions_;
   bool slides_;
 };
@@ -319,15 +311,22 @@ nb::dict flat_mesh(std::size_t vertex_count, nb::handle types, nb::handle sizes,
   }
   const MeshDocument& document = given.document();
   Workers workers(1);
-  TriangleCells cells = triangle_cells(document, workers);
+  ElementCells cells = element_cells(document, workers, slides ? Quads::hold : Quads::smooth);
+  if (cells.held_quads > 0) {
+    cells.notes.push_back(counted(cells.held_quads, "of these cells is a quadrilateral, which is",
+                                  "of these cells are quadrilaterals, which are") +
+                          " smoothed where nothing slides");
+  }
   keep_one_kind(cells);
-  if (cells.triangles.empty()) {
-    raise_value_error("points", "it has no triangles");
+  if (cells.elements.empty()) {
+    raise_value_error("points", "it has no triangles, and no quadrilaterals of four nodes");
   }
   nb::dict flat;
   flat["triangles"] = nodes_of(cells);
   flat["cell_of_triangle"] = numbers_of({cells.cells.begin(), cells.cells.end()});
-  const std::vector<Triangle> listed(cells.triangles.begin(), cells.triangles.end());
+  const std::size_t listed = cells.elements.size();
+  const std::vector<RepeatedTriangle> repeated =
+      cells.elements.visit([&](const auto& elements) { return find_repeated_triangles(elements, workers); });
   std::vector<std::string> notes = cells.notes;
   // (Who smooths the arrays tells of triangles that are listed again.)
   take_out_copies(cells, workers);
@@ -338,8 +337,8 @@ nb::dict flat_mesh(std::size_t vertex_count, nb::handle types, nb::handle sizes,
     raise_value_error("regions", error.what());
   }
   std::ranges::copy(regions.notes, std::back_inserter(notes));
-  flat["regions"] =
-      regions.arrays.empty() ? nb::object(nb::none()) : numbers_of(of_all_listed(regions.of_triangle, listed, workers));
+  flat["regions"] = regions.arrays.empty() ? nb::object(nb::none())
+                                           : numbers_of(of_all_listed(regions.of_triangle, listed, repeated));
   const Holds holds(document, cells, regions, slides);
   std::vector<std::uint8_t> held;
   if (fixed.is_none()) {

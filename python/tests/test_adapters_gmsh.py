@@ -181,15 +181,17 @@ def test_quadratic_triangles() -> None:
                 assert np.allclose(place[nodes[middle]], sum(ends) / 2, rtol=0, atol=1e-9)
 
 
-def test_quadrangles_are_held() -> None:
+def test_quadrangles_are_smoothed_unless_nodes_slide() -> None:
     first, second = two_squares()
     gmsh.model.mesh.setRecombine(2, second)
     gmsh.model.mesh.generate(2)
     assert 3 in gmsh.model.mesh.getElementTypes(2)
-    moved = moved_by()
-    assert moved
-    assert moved <= nodes_on(2, first)
-    assert not moved & nodes_of_elements(3)
+    with pytest.warns(trismooth.MeshWarning, match="quadrilaterals, which are smoothed where nothing slides"):
+        slid = moved_by(slide="straight")
+    assert slid and not slid & nodes_of_elements(3)
+    moved = moved_by(method="mean-ratio")
+    assert moved & nodes_on(2, second)
+    assert moved <= nodes_on(2, first) | nodes_on(2, second)
 
 
 TAGS = 1000 + 7 * np.random.default_rng(11).permutation(len(G.points))

@@ -157,7 +157,7 @@ def test_faults_name_the_argument(Mesh: Any) -> None:
             smooth(mesh, **{argument: "u"})
     assert np.array_equal(mesh.x, before)
     with pytest.raises(TypeError, match="^points: nodes of cells of shape"):
-        smooth(Mesh(G.points, np.zeros((5, 4))))
+        smooth(Mesh(G.points, np.zeros((5, 5))))
     with pytest.raises(TypeError, match="^points: its cells have dimension 1"):
         smooth(Mesh(G.points, G.triangles, dim=1))
     with pytest.raises(ValueError, match="^points: it is distributed over 4 processes"):
@@ -173,3 +173,16 @@ def test_faults_of_one_of_them() -> None:
     assert mesh.coordinates.dat.writes == mesh.clears == 0
     with pytest.raises(ValueError, match="^points: its coordinates are discontinuous"):
         smooth(FiredrakeMesh(G.points[G.triangles].reshape(-1, 2), np.arange(600).reshape(-1, 3)))
+
+
+def test_quadrilaterals_of_fenicsx_are_smoothed() -> None:
+    # Corners by rows, as dolfinx lists them.
+    x, y = np.meshgrid(np.arange(6.0), np.arange(5.0))
+    points = np.column_stack([x.ravel(), y.ravel()])
+    cells = [[a, a + 1, a + 6, a + 7] for a in range(24) if a % 6 < 5]
+    inner = (points.min(axis=1) > 0) & (points[:, 0] < 5) & (points[:, 1] < 4)
+    moved = points + inner[:, None] * np.random.default_rng(3).uniform(-0.3, 0.3, points.shape)
+    mesh = FenicsxMesh(moved, cells)
+    result = smooth(mesh, method="mean-ratio")
+    assert result.before.inverted == 0 and result.after["shape"].min > 0.99
+    np.testing.assert_allclose(mesh.x[:, :2], points, atol=0.05)

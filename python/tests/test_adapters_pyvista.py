@@ -22,7 +22,8 @@ pv = pytest.importorskip("pyvista")
 G = grid()
 TRIANGLES = G.triangles
 LINE = [G.vertex(2, 3), G.vertex(3, 3), G.vertex(3, 4)]
-QUAD = [G.vertex(7, 6), G.vertex(8, 6), G.vertex(8, 7), G.vertex(7, 7)]
+# Five corners: a cell that is no element.
+FIVE = [G.vertex(7, 6), G.vertex(8, 6), G.vertex(9, 7), G.vertex(8, 7), G.vertex(7, 7)]
 LONE = G.vertex(2, 8)
 DATA = Path(__file__).parents[2] / "examples" / "data"
 
@@ -124,11 +125,11 @@ def test_fixed() -> None:
 @pytest.mark.parametrize("first", [True, False])
 def test_cells_that_are_not_triangles_of_grids(first: bool) -> None:
     lone = (pv.CellType.VERTEX, [LONE])
-    mesh = unstructured_grid((pv.CellType.POLY_LINE, LINE), (pv.CellType.QUAD, QUAD), lone, first=first)
+    mesh = unstructured_grid((pv.CellType.POLY_LINE, LINE), (pv.CellType.POLYGON, FIVE), lone, first=first)
     labels = np.concatenate([[7, 8, 9], G.regions] if first else [G.regions, [7, 8, 9]])
     mesh.cell_data["material"] = labels
     expected = G.is_inside
-    expected[[*LINE, *QUAD, LONE]] = False
+    expected[[*LINE, *FIVE, LONE]] = False
     new = smooth(mesh).mesh
     assert np.array_equal(moved(mesh, new), expected)
     assert np.array_equal(new.cells, mesh.cells)
@@ -138,12 +139,12 @@ def test_cells_that_are_not_triangles_of_grids(first: bool) -> None:
 
 
 def test_cells_that_are_not_triangles_of_poly_data() -> None:
-    faces = np.concatenate([[4, *QUAD], np.insert(TRIANGLES, 0, 3, axis=1).ravel()])
+    faces = np.concatenate([[5, *FIVE], np.insert(TRIANGLES, 0, 3, axis=1).ravel()])
     mesh = pv.PolyData(G.points3, faces=faces, lines=[len(LINE), *LINE], verts=[1, LONE])
-    # VTK's order: vertex, line, quadrangle, triangles.
+    # VTK's order: vertex, line, polygon, triangles.
     mesh.cell_data["material"] = np.concatenate([[7, 8, 9], G.regions])
     expected = G.is_inside
-    expected[[*LINE, *QUAD, LONE]] = False
+    expected[[*LINE, *FIVE, LONE]] = False
     new = smooth(mesh).mesh
     assert np.array_equal(moved(mesh, new), expected)
     assert np.array_equal(new.faces, mesh.faces)

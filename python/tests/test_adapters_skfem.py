@@ -193,7 +193,7 @@ def test_faults_name_the_argument() -> None:
         smooth(mesh, fixed="u")
     with pytest.raises(ValueError, match=r"^fixed: shape \(1,\); expected"):
         smooth(mesh, fixed=[True])
-    with pytest.raises(TypeError, match="^points: a MeshQuad1 is no MeshTri1 or MeshTri2"):
-        smooth(skfem.MeshQuad1())
-    with pytest.raises(TypeError, match="^points: the triangles of a MeshTri1DG share no vertices"):
+    with pytest.raises(TypeError, match="^points: a MeshQuad2 is no MeshTri1, MeshTri2 or MeshQuad1"):
+        smooth(skfem.MeshQuad2())
+    with pytest.raises(TypeError, match="^points: the elements of a MeshTri1DG share no vertices"):
         smooth(skfem.MeshTri1DG.from_mesh(mesh1()))

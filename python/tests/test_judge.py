@@ -38,7 +38,7 @@ ROWS = (10 * G.points[G.triangles].mean(axis=1)[:, 1]).astype(int)
 SEGMENT = (G.row == 3) & (G.column > 6) & (G.column < 10)
 NONE = np.zeros(len(G.points), dtype=bool)
 LINE = np.flatnonzero(G.row == 6)[2:5]
-QUAD = [G.vertex(7, 6), G.vertex(8, 6), G.vertex(8, 7), G.vertex(7, 7)]
+FIVE = [G.vertex(7, 6), G.vertex(8, 6), G.vertex(9, 7), G.vertex(8, 7), G.vertex(7, 7)]
 
 
 @dataclass(eq=False)
@@ -62,7 +62,7 @@ class Case:
 
 
 OTHERS = NONE.copy()
-OTHERS[[*LINE, *QUAD]] = True
+OTHERS[[*LINE, *FIVE]] = True
 ROW_LINES = np.isin(G.row, [2, 4, 6, 8])
 CASES = [
     Case("a known name", {"material": G.regions}, G.is_interface),
@@ -85,7 +85,7 @@ CASES = [
     Case("one that is named", {"u": G.regions + 0.5, "region": ROWS // 2}, G.is_interface, regions="u"),
     Case("one that is named loosely", {"My Parts": G.regions + 0.5}, G.is_interface, regions="my_parts"),
     Case("none", {"region": G.regions}, NONE, regions=False),
-    Case("other cells", {}, OTHERS, ["3 cells of other types"], cells=[("line", LINE[:2]), ("line", LINE[1:]), ("quad", QUAD)]),
+    Case("other cells", {}, OTHERS, ["3 cells of other types"], cells=[("line", LINE[:2]), ("line", LINE[1:]), ("polygon", FIVE)]),
     Case("a point array", {}, SEGMENT, point_data={"fixed": SEGMENT.astype(float)}),
     Case("a point array written otherwise", {}, SEGMENT, point_data={"Fixed": SEGMENT.astype(np.int8)}),
     Case("a point array that is named", {}, SEGMENT, point_data={"wall": 2 * SEGMENT}, fixed="wall"),

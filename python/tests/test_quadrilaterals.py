@@ -150,3 +150,57 @@ def test_a_result_shows_both_kinds():
         result = trismooth.smooth(points, elements)
     assert "of the elements are acceptable" in result._repr_html_() and "triangles are" not in result._repr_html_()
     assert "quadrilaterals alone" in str(result.after)
+
+
+def as_meshio(points, elements):
+    meshio = pytest.importorskip("meshio")
+    is_triangle = elements[:, 3] < 0
+    return meshio.Mesh(points, [("triangle", elements[is_triangle, :3]), ("quad", elements[~is_triangle])])
+
+
+def test_meshes_of_other_packages_are_smoothed_and_judged_with_their_quadrilaterals():
+    points, elements = mixed_mesh()
+    listed = np.concatenate([elements[elements[:, 3] < 0], elements[elements[:, 3] >= 0]])
+    mesh = as_meshio(points, elements)
+    expected = trismooth.smooth(points, listed, method="mean-ratio")
+    result = trismooth.smooth(mesh, method="mean-ratio")
+    np.testing.assert_array_equal(result.mesh.points, expected.points)
+    assert result.notes == [] and result.after.quadrilaterals == (elements[:, 3] >= 0).sum()
+    assert repr(trismooth.quality(mesh).summary) == repr(trismooth.quality(points, listed).summary)
+
+
+def test_quadrilaterals_of_other_packages_are_held_where_vertices_slide_and_a_warning_says_so():
+    points, elements = mixed_mesh()
+    with pytest.warns(trismooth.MeshWarning, match="quadrilaterals, which are smoothed where nothing slides"):
+        result = trismooth.smooth(as_meshio(points, elements), slide="straight")
+    of_quadrilaterals = np.unique(elements[elements[:, 3] >= 0])
+    np.testing.assert_array_equal(result.points[of_quadrilaterals], points[of_quadrilaterals])
+
+
+def test_quadrilaterals_of_scikit_fem_are_smoothed():
+    skfem = pytest.importorskip("skfem")
+    square = skfem.MeshQuad1().refined(3)
+    inner = square.interior_nodes()
+    doflocs = square.doflocs.copy()
+    doflocs[:, inner] += np.random.default_rng(2).uniform(-0.04, 0.04, (2, len(inner)))
+    result = trismooth.smooth(skfem.MeshQuad1(doflocs, square.t), method="mean-ratio")
+    assert isinstance(result.mesh, skfem.MeshQuad1) and result.before["shape"].min < 0.6 < 0.99 < result.after["shape"].min
+    np.testing.assert_allclose(result.mesh.doflocs, square.doflocs, atol=0.01)
+
+
+def test_a_file_is_smoothed_with_its_quadrilaterals_unless_they_are_to_be_held(tmp_path):
+    points, elements = mixed_mesh()
+    as_meshio(np.pad(points, ((0, 0), (0, 1))), elements).write(tmp_path / "mixed.vtu")
+    mesh = trismooth.read(tmp_path / "mixed.vtu")
+    np.testing.assert_array_equal(mesh.quadrilaterals, elements[elements[:, 3] >= 0])
+    assert mesh.quality().quadrilaterals == len(mesh.quadrilaterals)
+    with pytest.warns(trismooth.MeshWarning, match="not smoothed, their vertices held fixed"):
+        held = mesh.smooth(quads="hold")
+    assert held.report["options"]["quads"] == "hold" and held.report["input"]["quadrilaterals"] == 0
+    result = mesh.smooth(method="mean-ratio")
+    assert result.report["after"]["kinds"][1]["kind"] == "quadrilateral"
+    assert result.report["after"]["kinds"][1]["metrics"]["shape"]["min"] == pytest.approx(
+        shapes_of(mesh.points[:, :2], elements[elements[:, 3] >= 0]).min()
+    )
+    with pytest.raises(ValueError, match="^quads: .*'smooth', 'hold'|quads"):
+        mesh.smooth(quads="some")

@@ -99,7 +99,7 @@ def test_named_boundaries_of_scikit_fem_are_sides_in_every_reader(tmp_path: Path
         result, caught = smoothed(other)
         assert np.array_equal(np.asarray(result.points)[:, :2], expected)
         (warning,) = caught
-        assert "named boundaries on sides of triangles" in str(warning.message)
+        assert "named boundaries on sides of elements" in str(warning.message)
         freed, _ = smoothed(other, regions=False)
         assert same_bits(np.asarray(freed.points)[:, :2], G.points)[ends].all()
     slid, _ = smoothed(given[0], slide="straight")
@@ -107,7 +107,7 @@ def test_named_boundaries_of_scikit_fem_are_sides_in_every_reader(tmp_path: Path
     assert np.array_equal(np.asarray(slid.points)[:, :2], of_skfem.mesh.p.T)
     if trismooth.build_info()["files"]:
         of_file = trismooth.read(path)
-        with pytest.warns(trismooth.MeshWarning, match="named boundaries on sides of triangles"):
+        with pytest.warns(trismooth.MeshWarning, match="named boundaries on sides of elements"):
             report = of_file.smooth().report
         assert np.array_equal(of_file.points[:, :2], expected)
         assert [array["name"] for array in report["input"]["region_arrays"]] == ["skfem:s:low"]

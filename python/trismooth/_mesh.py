@@ -20,7 +20,7 @@ from ._support import NO_FILES
 Path = Union[str, "os.PathLike[str]"]
 
 #: VTK's types of cells.
-_TRIANGLE, _QUADRATIC_TRIANGLE = 5, 22
+_TRIANGLE, _QUADRILATERAL, _QUADRATIC_TRIANGLE = 5, 9, 22
 
 
 class FileResult(Result):
@@ -40,8 +40,12 @@ class FileResult(Result):
     __slots__ = ("report", "warnings", "losses")
 
     def __init__(self, outcome: Any, mesh: Mesh, report: Dict[str, Any]) -> None:
-        linear = mesh.triangles
-        super().__init__(outcome.outcome, mesh.points, linear if len(linear) > 0 else mesh.quadratic_triangles)
+        triangles, quadrilaterals = mesh.triangles, mesh.quadrilaterals
+        if report["input"]["quadrilaterals"] > 0:
+            elements = np.vstack([np.pad(triangles, ((0, 0), (0, 1)), constant_values=-1), quadrilaterals])
+        else:
+            elements = triangles if len(triangles) > 0 else mesh.quadratic_triangles
+        super().__init__(outcome.outcome, mesh.points, elements)
         self.mesh = mesh
         self.report = report
         self.notes = _said(outcome)
@@ -114,6 +118,11 @@ class Mesh:
         return self._mesh.cells(_QUADRATIC_TRIANGLE, 6)
 
     @property
+    def quadrilaterals(self) -> np.ndarray:
+        """The quadrilaterals of four nodes, int32 of shape (M, 4), in the file's order."""
+        return self._mesh.cells(_QUADRILATERAL, 4)
+
+    @property
     def cell_types(self) -> np.ndarray:
         """VTK's type of each cell, uint8, in the file's order."""
         return self._mesh.cell_types
@@ -142,6 +151,7 @@ class Mesh:
         fixed_array: Optional[str] = None,
         fixed_sets: Union[None, str, Sequence[str]] = None,
         merge: Optional[float] = None,
+        quads: str = "smooth",
         size: Optional[str] = None,
         fields: Optional[str] = None,
         field_arrays: Union[None, str, Sequence[str]] = None,
@@ -170,8 +180,10 @@ class Mesh:
             Point sets that hold vertices, or "ARRAY=NUMBER": the points, and those of the cells, that the file gives that
             number, as "medit:ref=7". Default: all sets but those of areas.
         merge : float, optional
-            Corners of triangles that are no further apart, in the file's unit, count as one vertex: they move together,
+            Corners of elements that are no further apart, in the file's unit, count as one vertex: they move together,
             and the mesh keeps all of them. Default: none are joined.
+        quads : {"smooth", "hold"}
+            Quadrilaterals of four nodes are smoothed with the triangles, or kept with their vertices held.
         size : str, optional
             The array of sizes to aim at: edge lengths at points, or areas of cells.
         fields : {"keep", "interpolate"}, optional
@@ -200,7 +212,7 @@ class Mesh:
         Raises
         ------
         ReadError
-            An OSError: for a mesh that is not planar or no triangle mesh. The mesh is as it was, as it is wherever an
+            An OSError: for a mesh that is not planar, or has neither triangles nor quadrilaterals. The mesh is as it was, as it is wherever an
             exception is raised.
         """
         options["method"] = method
@@ -213,6 +225,7 @@ class Mesh:
             "fixed_array": fixed_array,
             "fixed_sets": fixed_sets,
             "merge": merge,
+            "quads": quads,
             "size": size,
             "fields": fields,
             "field_arrays": field_arrays,
@@ -230,10 +243,12 @@ class Mesh:
             outcome = self._mesh.smooth(options, held, progress, accept)
         return FileResult(outcome, self, report)
 
-    def quality(self, *, project: Optional[str] = None, geographic: bool = False, threads: int = 0) -> QualityReport:
+    def quality(
+        self, *, project: Optional[str] = None, geographic: bool = False, quads: str = "smooth", threads: int = 0
+    ) -> QualityReport:
         """The quality of the mesh as it is now: what ``trismooth quality`` shows."""
         with _errors_in_python():
-            outcome = self._mesh.check({"project": project, "geographic": geographic}, threads)
+            outcome = self._mesh.check({"project": project, "geographic": geographic, "quads": quads}, threads)
         report = outcome.outcome.before
         assert report is not None  # a check always has it
         return report

@@ -27,14 +27,14 @@ _FLATNESS = 1e-6
 
 
 def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
-    """Smooth the triangles of the current model, in place.
+    """Smooth the triangles and quadrangles of the current model, in place.
 
     Nodes that Gmsh classifies on surfaces move: those inside of them. Nodes on curves and points are held, also where
-    these are embedded in a surface, and so are the borders between surfaces. Nodes of quadrangles and of other elements
-    that are no triangles are held, too, and nodes that are linked as periodic; a quadrangle that repeats a corner is a
-    triangle. Where they have parametric coordinates on their surface, moved nodes get those of the new place.
+    these are embedded in a surface, and so are the borders between surfaces. Nodes of elements
+    that are neither triangles nor quadrangles of four nodes are held, too, and nodes that are linked as periodic; a
+    quadrangle that repeats a corner is a triangle. Where they have parametric coordinates on their surface, moved nodes get those of the new place.
 
-    With ``slide`` nodes inside of curves slide along the line elements of their curve; nodes on points stay. Nodes that
+    With ``slide`` quadrangles are held, and nodes inside of curves slide along the line elements of their curve; nodes on points stay. Nodes that
     are linked as periodic on two curves slide together. Moved nodes are on the edges of the mesh as it was, not on the
     curve of the geometry; ``deviation`` bounds how far they are from where these were.
 
@@ -60,7 +60,7 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
     RuntimeError
         If Gmsh is not initialized.
     ValueError
-        If the model has no triangles, or its surfaces do not lie in one plane z = const.
+        If the model has neither triangles nor quadrangles, or its surfaces do not lie in one plane z = const.
     """
     import gmsh
 
@@ -163,7 +163,7 @@ def _mesh_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Entity], curves: list[_En
                 entities.append(np.full(len(tags), entity))
     cells = Cells(*map(np.concatenate, (types, sizes, numbers)))
     if (cells.types == _VTK_TYPES[_LINE]).all():
-        raise ValueError("the model has no triangles of order 1 or 2: call gmsh.model.mesh.generate(2) first")
+        raise ValueError("the model has no triangles of order 1 or 2 and no quadrangles: call gmsh.model.mesh.generate(2) first")
     entity_of = np.concatenate(entities)
     lines = np.flatnonzero(cells.types == _VTK_TYPES[_LINE])
     of_curves = {str(curve.tag): lines[entity_of[lines] == curve.tag] for curve in curves}

@@ -16,12 +16,14 @@ MeshRings with_rings_of(MeshRings& mesh) {
   return copy;
 }
 
-MeshRings find_mesh_rings(std::span<const Point2<double>> points, std::span<const Triangle> triangles,
+MeshRings find_mesh_rings(std::span<const Point2<double>> points, const ElementList& elements,
                           const Constraints& constraints, Workers& workers, Layers layers) {
-  check_mesh_size(std::ssize(points), std::ssize(triangles));
-  AnalysedMesh mesh(static_cast<std::int32_t>(points.size()), triangles, constraints, workers);
-  mesh.look_at(points, triangles, layers, workers);
-  return std::move(mesh).with_rings(triangles, workers);
+  check_mesh_size(std::ssize(points), static_cast<std::int64_t>(elements.size()), elements.are_triangles() ? 3 : 4);
+  return elements.visit([&](const auto& listed) {
+    AnalysedMesh mesh(static_cast<std::int32_t>(points.size()), listed, constraints, workers);
+    mesh.look_at(points, listed, layers, workers);
+    return std::move(mesh).with_rings(listed, workers);
+  });
 }
 
 }  // namespace trismooth

@@ -98,7 +98,7 @@ struct Prepared {
 std::optional<Prepared> prepare(const MeshDocument& document) {
   Prepared prepared;
   try {
-    prepared.mesh = trismooth::planar_mesh(document, input_path);
+    prepared.mesh = trismooth::planar_mesh(document, input_path, trismooth::Quads::hold);
   } catch (const ReadError&) {
     return std::nullopt;
   }
@@ -106,10 +106,11 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
   prepared.enter_frame();
   prepared.regions = trismooth::find_regions(document, mesh);
   prepared.fixed = trismooth::find_fixed_array(document, std::nullopt).flags;
-  const NaiveTopology naive = naive_topology(mesh.points, mesh.triangles, prepared.constraints());
+  const NaiveTopology naive = naive_topology(mesh.points, mesh.elements.triangles(), prepared.constraints());
   trismooth::Workers workers(1);
   try {
-    prepared.found = trismooth::find_mesh_rings(prepared.local.points, mesh.triangles, prepared.constraints(), workers);
+    prepared.found =
+        trismooth::find_mesh_rings(prepared.local.points, mesh.elements.triangles(), prepared.constraints(), workers);
   } catch (const trismooth::MeshError&) {
     require(!naive.orientable, "a mesh that can be oriented is refused");
     return std::nullopt;
@@ -117,8 +118,8 @@ std::optional<Prepared> prepare(const MeshDocument& document) {
   require(naive.orientable, "a mesh that cannot be oriented is accepted");
   require(prepared.found.reversed == naive.reversed, "triangles are oriented otherwise than their majority");
   const trismooth::MeshRings other =
-      trismooth::read_halfedge_rings(trismooth::connect_halfedges(document.points, mesh.triangles, workers),
-                                     prepared.local.points, mesh.triangles, prepared.constraints(), workers);
+      trismooth::read_halfedge_rings(trismooth::connect_halfedges(document.points, mesh.elements.triangles(), workers),
+                                     prepared.local.points, mesh.elements.triangles(), prepared.constraints(), workers);
   require(other.fixed == prepared.found.fixed && other.reversed == prepared.found.reversed &&
               other.rings.offsets == prepared.found.rings.offsets &&
               other.rings.neighbours == prepared.found.rings.neighbours,
@@ -159,8 +160,9 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
   const std::vector<double> stored_before = document.points;
   const auto storage = document.moved_point_type() == trismooth::ScalarType::float32 ? trismooth::Storage::float32
                                                                                      : trismooth::Storage::float64;
-  const trismooth::SmoothingResult result = trismooth::smooth_in_plane(
-      prepared->found, mesh.triangles, mesh.plane, document.points, mesh.points, prepared->local, storage, options);
+  const trismooth::SmoothingResult result =
+      trismooth::smooth_in_plane(prepared->found, mesh.elements.triangles(), mesh.plane, document.points, mesh.points,
+                                 prepared->local, storage, options);
   require_guarantees(document);
   std::vector<Point2<double>> after(before.size());
   for (std::size_t v = 0; v < after.size(); ++v) {
@@ -176,8 +178,8 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
     require(!moved || prepared->found.fixed[v] == 0, "a fixed vertex moved in space");
     require(fuzz::same_bits(after[v], mesh.points[v]), "reports other coordinates than it stores");
   }
-  const NaiveTopology topology = naive_topology(before, mesh.triangles, prepared->constraints());
-  require_never_worse({mesh.triangles, topology, before, after, options, result});
+  const NaiveTopology topology = naive_topology(before, mesh.elements.triangles(), prepared->constraints());
+  require_never_worse({mesh.elements.triangles(), topology, before, after, options, result});
   return true;
 }
 

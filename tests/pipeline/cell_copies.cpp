@@ -154,7 +154,7 @@ TEST_CASE("a mesh in which nothing is listed again is not copied, and nothing is
   const MeshDocument document = document_of(mesh, mesh.triangles);
   const PlanarMesh planar = mesh_without_copies(document);
   CHECK(planar.copies.empty());
-  CHECK(planar.triangles_of_cells.empty());
+  CHECK(planar.elements.triangles()[0].data() == document.cells.connectivity.data());
   CHECK(planar.notes.empty());
 }
 
@@ -240,7 +240,7 @@ TEST_CASE("a strip is as bad as its worst triangle, also where that is listed be
   CHECK(mesh.copies == std::vector<CellCopy>{{0, 1}, {0, 2}, {1, 2}});
   trismooth::Workers workers(1);
   const auto arrays =
-      trismooth::metric_annotations(std::vector{trismooth::Metric::max_angle}, {mesh.points, mesh.triangles, {}, 0},
+      trismooth::metric_annotations(std::vector{trismooth::Metric::max_angle}, {mesh.points, mesh.elements, {}, 0},
                                     mesh.cells, 3, workers, "", mesh.copies);
   CHECK(arrays[0].value(0) > 130);
   CHECK(arrays[0].value(1) == arrays[0].value(0));
@@ -261,7 +261,7 @@ TEST_CASE(
   CHECK(mesh.quadratics.size() == 1);
   document.cells.append(cell_type::quadratic_triangle, Numbers{0, 1, 2, 3, 6, 5});
   const PlanarMesh with_other = mesh_without_copies(document);
-  CHECK(with_other.triangles.size() == 1);
+  CHECK(with_other.elements.size() == 1);
   CHECK(with_other.copies.size() == 3);
   CHECK(with_other.other_cells == 1);
   CHECK(with_other.in_other_cell == std::vector<std::uint8_t>{1, 1, 1, 1, 0, 1, 1});

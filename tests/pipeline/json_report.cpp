@@ -40,6 +40,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                          "format",
                                          "vertices",
                                          "triangles",
+                                         "quadrilaterals",
                                          "other_cells",
                                          "quadratic_triangles",
                                          "middle_nodes",
@@ -70,8 +71,8 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }
   for (const char* side : {"before", "after"}) {
-    CHECK(keys_of(report[side]) ==
-          Keys{"triangles", "inverted", "degenerate", "metrics", "histogram", "worst", "regions", "quadratic"});
+    CHECK(keys_of(report[side]) == Keys{"triangles", "quadrilaterals", "inverted", "degenerate", "metrics", "kinds",
+                                        "histogram", "worst", "regions", "quadratic"});
     CHECK(keys_of(report[side]["metrics"]) == Keys{"shape", "area", "min_angle", "max_angle", "aspect_ratio",
                                                    "radius_ratio", "edge_ratio", "condition", "scaled_jacobian",
                                                    "equiangle_skew"});
@@ -223,9 +224,11 @@ TEST_CASE("the JSON report has the quality of every region, by its value in the 
   result.regions_before = {{100, 2, -0.25, 0.5, 12}, {110, 0, 0.125, 0.75, 20}};
   result.regions_after = {{100, 0, 0.25, 0.625, 22}, {110, 0, 0.375, 0.875, 30}};
   const Json report = Json::parse(json_report(sample::options(), result, sample::record()));
-  CHECK(report["before"]["regions"][0] == Json::parse(R"({"region": "3", "triangles": 100, "inverted": 2,
+  CHECK(report["before"]["regions"][0] ==
+        Json::parse(R"({"region": "3", "triangles": 100, "quadrilaterals": 0, "inverted": 2,
       "shape": {"min": -0.25, "mean": 0.5}, "min_angle": {"min": 12.0}})"));
-  CHECK(report["after"]["regions"][1] == Json::parse(R"({"region": "steel", "triangles": 110, "inverted": 0,
+  CHECK(report["after"]["regions"][1] ==
+        Json::parse(R"({"region": "steel", "triangles": 110, "quadrilaterals": 0, "inverted": 0,
       "shape": {"min": 0.375, "mean": 0.875}, "min_angle": {"min": 30.0}})"));
 }
 

@@ -43,7 +43,7 @@ Input example(const std::string& name) {
   input.regions = trismooth::find_regions(document, mesh).of_triangle;
   input.other_cells = std::move(mesh.in_other_cell);
   input.points.assign(mesh.points.begin(), mesh.points.end());
-  input.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+  input.triangles.assign(mesh.elements.triangles().begin(), mesh.elements.triangles().end());
   return input;
 }
 

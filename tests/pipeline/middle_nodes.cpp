@@ -37,8 +37,8 @@ Settled settled(const MeshDocument& document, Bytes named = {}) {
 TEST_CASE("triangles of six nodes are the triangles of their corners, and their middles follow the sides") {
   const MeshDocument document = square();
   const Settled result = settled(document);
-  REQUIRE(result.mesh.triangles.size() == 2);
-  CHECK(result.mesh.triangles[1] == Triangle{0, 2, 3});
+  REQUIRE(result.mesh.elements.triangles().size() == 2);
+  CHECK(result.mesh.elements.triangles()[1] == Triangle{0, 2, 3});
   CHECK(result.mesh.other_cells == 0);
   CHECK(result.mesh.notes.empty());
   REQUIRE(result.mesh.quadratics.size() == 2);
@@ -99,7 +99,7 @@ TEST_CASE(
   document.cells.append(cell_type::triangle, Numbers{0, 2, 3});
   document.cells.append(cell_type::quadratic_edge, Numbers{0, 1, 4});
   const Settled result = settled(document);
-  CHECK(result.mesh.triangles.size() == 2);
+  CHECK(result.mesh.elements.triangles().size() == 2);
   CHECK(result.mesh.middles.size() == 2);
   CHECK(result.mesh.in_other_cell == Bytes{1, 1, 0, 0, 1, 1, 1, 0, 0, 0});
 }

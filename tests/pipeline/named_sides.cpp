@@ -64,7 +64,7 @@ TEST_CASE("a named boundary inside the mesh holds its vertices, says so, and is 
   CHECK(mesh.in_other_cell == std::vector<std::uint8_t>{0, 1, 0, 0, 1, 1, 1});
   REQUIRE(mesh.notes.size() == 2);
   CHECK(mesh.notes[1] ==
-        "named boundaries on sides of triangles ('skfem:b:crack'; 1 side): their vertices are held, or slide along "
+        "named boundaries on sides of elements ('skfem:b:crack'; 1 side): their vertices are held, or slide along "
         "them with --slide");
   const trismooth::Regions regions = find_regions(document, mesh);
   CHECK(regions.arrays.empty());

@@ -27,8 +27,7 @@ struct Sample {
     for (std::size_t v = 0; v < 5; ++v) {
       mesh.points.push_back({document.points[3 * v], document.points[3 * v + 1]});
     }
-    mesh.triangles_of_cells = {{0, 1, 2}, {0, 2, 3}};
-    mesh.triangles = mesh.triangles_of_cells;
+    mesh.list(std::vector<trismooth::Triangle>{{0, 1, 2}, {0, 2, 3}});
     mesh.cells = {0, 2};
   }
   void at_points(std::string name, const std::vector<double>& values) {
@@ -123,8 +122,7 @@ TEST_CASE("an array of sizes is not taken for regions, unless it is named for th
   // A strip of four triangles.
   sample.document.points = {0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 2, 0, 0, 2, 1, 0};
   sample.mesh.points = {{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}};
-  sample.mesh.triangles_of_cells = {{0, 2, 1}, {2, 3, 1}, {2, 4, 3}, {4, 5, 3}};
-  sample.mesh.triangles = sample.mesh.triangles_of_cells;
+  sample.mesh.list(std::vector<trismooth::Triangle>{{0, 2, 1}, {2, 3, 1}, {2, 4, 3}, {4, 5, 3}});
   sample.mesh.cells = {0, 1, 2, 3};
   sample.document.cell_arrays.push_back(make_data_array("block", 1, std::vector<float>{1, 1, 2, 2}));
   CHECK(trismooth::find_regions(sample.document, sample.mesh).count() == 2);

@@ -51,15 +51,15 @@ TEST_CASE("a triangle strip counts as its triangles, which turn the same way and
   document.cells.append(cell_type::triangle, Numbers{4, 5, 6});
   document.cells.append(cell_type::triangle_strip, Numbers{6, 5, 7});
   const PlanarMesh mesh = planar_mesh(document, "strips.vtk");
-  CHECK(mesh.triangles.size() == 6U);
+  CHECK(mesh.elements.triangles().size() == 6U);
   CHECK(mesh.cells == Numbers{1, 1, 1, 1, 2, 3});
   CHECK(mesh.other_cells == 1);
   CHECK(std::ranges::count(mesh.in_other_cell, 1) == 2);
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const Triangle& triangle : mesh.elements.triangles()) {
     CHECK(doubled_area(mesh, triangle) == -1.0);
   }
   std::vector<std::vector<std::int32_t>> corners;
-  for (Triangle triangle : mesh.triangles) {
+  for (Triangle triangle : mesh.elements.triangles()) {
     std::ranges::sort(triangle);
     corners.emplace_back(triangle.begin(), triangle.end());
   }
@@ -70,10 +70,10 @@ TEST_CASE("triangles that join two parts of a strip are none, and hold no vertex
   MeshDocument document = two_rows(8);
   document.cells.append(cell_type::triangle_strip, Numbers{0, 1, 2, 3, 3, 4, 4, 5, 6, 7});
   const PlanarMesh mesh = planar_mesh(document, "strips.vtk");
-  CHECK(mesh.triangles.size() == 4U);
+  CHECK(mesh.elements.triangles().size() == 4U);
   CHECK(mesh.other_cells == 0);
   CHECK(std::ranges::count(mesh.in_other_cell, 1) == 0);
-  for (const Triangle& triangle : mesh.triangles) {
+  for (const Triangle& triangle : mesh.elements.triangles()) {
     CHECK(doubled_area(mesh, triangle) == -1.0);
   }
 }
@@ -84,7 +84,7 @@ TEST_CASE("a strip without any triangle is another cell, and alone no mesh") {
   CHECK_THROWS_AS(planar_mesh(document, "strips.vtk"), trismooth::ReadError);
   document.cells.append(cell_type::triangle, Numbers{3, 4, 5});
   const PlanarMesh mesh = planar_mesh(document, "strips.vtk");
-  CHECK(mesh.triangles.size() == 1U);
+  CHECK(mesh.elements.triangles().size() == 1U);
   CHECK(mesh.other_cells == 1);
   CHECK(mesh.in_other_cell == std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0});
 }
@@ -113,7 +113,7 @@ TEST_CASE("formats without strips get their triangles, with the arrays' rows, an
     write_mesh(folder / file, document);
     const MeshDocument again = trismooth::read_mesh(folder / file);
     const PlanarMesh converted = planar_mesh(again, "out");
-    CHECK(converted.triangles.size() == mesh.triangles.size());
+    CHECK(converted.elements.triangles().size() == mesh.elements.triangles().size());
     const bool holds_strips = name.starts_with("vt");
     CHECK(has_strips(again) == holds_strips);
     const std::vector<std::string> lost = what_is_lost(document, format);

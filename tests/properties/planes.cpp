@@ -83,20 +83,20 @@ Smoothed smooth(MeshDocument& document, const RandomMesh& mesh, const SmoothingO
   trismooth::PlanarMesh planar = trismooth::planar_mesh(document, "mesh");
   trismooth::LocalPoints local;
   const auto enter_frame = [&] {
-    local = trismooth::entered(test_meshes::used_frame(planar.points, planar.triangles, planar.in_other_cell),
-                               planar.points);
+    local = trismooth::entered(
+        test_meshes::used_frame(planar.points, planar.elements.triangles(), planar.in_other_cell), planar.points);
   };
   enter_frame();
   trismooth::Workers workers(1);
   auto found = trismooth::find_mesh_rings(
-      local.points, planar.triangles,
+      local.points, planar.elements.triangles(),
       {.fixed = mesh.fixed, .fixed_ids = mesh.fixed_ids, .other_cells = planar.in_other_cell, .regions = mesh.regions},
       workers);
   if (trismooth::settle_plane(planar, document, found.fixed, "mesh", workers)) {
     enter_frame();
   }
-  return {trismooth::smooth_in_plane(found, planar.triangles, planar.plane, document.points, planar.points, local,
-                                     Storage::float64, options),
+  return {trismooth::smooth_in_plane(found, planar.elements.triangles(), planar.plane, document.points, planar.points,
+                                     local, Storage::float64, options),
           planar.plane.aligned};
 }
 

@@ -29,7 +29,7 @@ PrecisionLoss loss_beside(double small, std::int32_t count, int threads = 1) {
 
 TEST_CASE("a mesh of one size is held by single precision") {
   const PrecisionLoss loss = loss_beside(0.01, 100);
-  CHECK(loss.triangles == 101);
+  CHECK(loss.elements == 101);
   CHECK(loss.collapsed == 0);
   CHECK(loss.distorted == 0);
   CHECK_FALSE(loss.any());
@@ -68,7 +68,7 @@ TEST_CASE("a triangle whose squares vanish in float32 has collapsed") {
 
 TEST_CASE("the description says how many of what") {
   const std::string begin = "single precision cannot hold this mesh; rounded to it, ";
-  const std::string collapsed = "triangles that collapse: 4 of 18";
+  const std::string collapsed = "elements that collapse: 4 of 18";
   const std::string distorted = "triangles whose shape changes by more than 0.01: 1 of 18";
   CHECK(describe(PrecisionLoss{18, 4, 0}) == begin + collapsed);
   CHECK(describe(PrecisionLoss{18, 0, 1}) == begin + distorted);

@@ -56,7 +56,7 @@ bool is_mesh_of_its_own(const Piece& piece) {
 
 void take_piece(Piece& piece, RankMesh& mesh) {
   mesh.ids = piece.ids;
-  mesh.triangles = piece.mesh.triangles;
+  mesh.triangles = piece.mesh.elements.triangles();
   mesh.in_other_cell = std::move(piece.mesh.in_other_cell);
   mesh.triangle_ids = piece.triangle_ids;
   piece.vertices.resize(piece.ids.size());
@@ -84,7 +84,7 @@ void join(PieceFiles& files, RankMesh& mesh) {
       piece.vertices[i] = static_cast<std::int32_t>(v);
       mesh.in_other_cell[v] |= piece.mesh.in_other_cell[i];
     }
-    for (const auto& [a, b, c] : piece.mesh.triangles) {
+    for (const auto& [a, b, c] : piece.mesh.elements.triangles()) {
       mesh.joined_triangles.push_back({piece.vertices[static_cast<std::size_t>(a)],
                                        piece.vertices[static_cast<std::size_t>(b)],
                                        piece.vertices[static_cast<std::size_t>(c)]});
@@ -98,7 +98,7 @@ void join(PieceFiles& files, RankMesh& mesh) {
 void mark_ghosts(const PieceFiles& files, RankMesh& mesh) {
   mesh.ghost_triangles.reserve(mesh.triangles.size());
   for (const Piece& piece : files.pieces) {
-    for (std::size_t t = 0; t < piece.mesh.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < piece.mesh.elements.triangles().size(); ++t) {
       mesh.ghost_triangles.push_back(piece.is_ghost(t) ? 1 : 0);
     }
   }
@@ -106,7 +106,12 @@ void mark_ghosts(const PieceFiles& files, RankMesh& mesh) {
 
 }  // namespace
 
-std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks) {
+std::string_view what_is_not_joined(const PieceFiles& files, Quads quads, const mpi::Communicator& ranks) {
+  const bool has_quads =
+      std::ranges::any_of(files.pieces, [](const Piece& piece) { return piece.mesh.held_quads > 0; });
+  if (quads == Quads::smooth && ranks.any(has_quads)) {
+    return "quadrilaterals";
+  }
   if (ranks.any(std::ranges::any_of(files.pieces, &has_six_nodes))) {
     return "triangles of six nodes";
   }

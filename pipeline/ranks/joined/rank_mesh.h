@@ -38,9 +38,10 @@ struct RankMesh {
   bool is_ghost(std::size_t triangle) const { return !ghost_triangles.empty() && ghost_triangles[triangle] != 0; }
 };
 
-/// What of a mesh keeps it from being put together in pieces, for people: triangles of six nodes, heights that differ.
+/// What of a mesh keeps it from being put together in pieces, for people: quadrilaterals that `quads` wants smoothed,
+/// triangles of six nodes, heights that differ.
 /// Empty where nothing does. Collective.
-std::string_view what_is_not_joined(const PieceFiles& files, const mpi::Communicator& ranks);
+std::string_view what_is_not_joined(const PieceFiles& files, Quads quads, const mpi::Communicator& ranks);
 
 /// Whether the vertices of the rank's pieces are numbered from 0 on, with no number missing. A mesh that is gathered
 /// is; where ids are missing, that is another mesh. Local.

@@ -245,11 +245,11 @@ PrecisionLoss RankQuality::precision_loss(std::span<const Point2<double>> points
   PrecisionLoss loss;
   for_rounds(points, exponent, [&](const TriangleView& view, std::size_t /*first*/) {
     const PrecisionLoss of_round = single_precision_loss(view, threads);
-    loss.triangles += of_round.triangles;
+    loss.elements += of_round.elements;
     loss.collapsed += of_round.collapsed;
     loss.distorted += of_round.distorted;
   });
-  return {ranks_.sum(loss.triangles), ranks_.sum(loss.collapsed), ranks_.sum(loss.distorted)};
+  return {ranks_.sum(loss.elements), ranks_.sum(loss.collapsed), ranks_.sum(loss.distorted)};
 }
 
 }  // namespace trismooth

@@ -14,8 +14,9 @@ from .flat import FlatMesh, choose_fixed, choose_regions, nothing_named, number_
 
 SUPPORTS_COPY = False
 
-# dolfinx lists the middles of the sides 12, 02, 01 (the order of Basix).
-_VTK_ORDER = [0, 1, 2, 5, 3, 4]
+# VTK's order of the nodes, by how many there are: dolfinx lists the middles of the sides 12, 02, 01 of a triangle, and the
+# corners of a quadrilateral by rows (the order of Basix).
+_ORDERS = {3: [0, 1, 2], 4: [0, 1, 3, 2], 6: [0, 1, 2, 5, 3, 4]}
 
 
 def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = False) -> FlatMesh:
@@ -24,7 +25,7 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     Parameters
     ----------
     mesh : dolfinx.mesh.Mesh
-        Triangles of order 1 or 2, on one process.
+        Triangles of order 1 or 2, or quadrilaterals of order 1, on one process.
     regions : None, False, dolfinx.mesh.MeshTags or array_like
         None, False: no regions. Tags of cells: each value is a region; cells without a tag are one more. An array: a
         label for each cell.
@@ -40,7 +41,7 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
     labels = _labels_of_tags(regions, len(dofmap)) if hasattr(regions, "indices") else regions
     return FlatMesh(
         mesh.geometry.x,
-        dofmap if dofmap.shape[1] == 3 else np.ascontiguousarray(dofmap[:, _VTK_ORDER]),
+        np.ascontiguousarray(dofmap[:, _ORDERS[dofmap.shape[1]]]),
         regions=choose_regions(
             labels, len(dofmap), default=lambda: None, named=nothing_named("regions", "a dolfinx mesh")
         ),
@@ -58,7 +59,7 @@ def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) ->
 
 def _check(mesh: Any) -> None:
     if mesh.topology.dim != 2:
-        raise TypeError(f"points: its cells have dimension {mesh.topology.dim}; only triangles can be smoothed")
+        raise TypeError(f"points: its cells have dimension {mesh.topology.dim}; only plane meshes can be smoothed")
     if mesh.comm.size > 1:
         raise ValueError(f"points: it is distributed over {mesh.comm.size} processes; smooth it on one, before that")
 
@@ -68,8 +69,11 @@ def _dofmap(mesh: Any) -> np.ndarray:
     geometry = mesh.geometry
     dofmap: Optional[Any] = getattr(geometry, "dofmap", None)
     nodes = np.asarray(geometry.dofmaps[0] if dofmap is None else dofmap)
-    if nodes.ndim != 2 or nodes.shape[1] not in (3, 6):
-        raise TypeError(f"points: nodes of cells of shape {nodes.shape} are not those of triangles of order 1 or 2")
+    if nodes.ndim != 2 or nodes.shape[1] not in _ORDERS:
+        raise TypeError(
+            f"points: nodes of cells of shape {nodes.shape} are not those of triangles of order 1 or 2, nor of "
+            "quadrilaterals of order 1"
+        )
     return nodes
 
 

@@ -25,14 +25,15 @@ class FlatMesh:
     ----------
     points : ndarray, shape (N, 2) or (N, 3)
         Coordinates, in the precision of the mesh.
-    triangles : ndarray of int, shape (M, 3) or (M, 6)
-        Corners; with six nodes, then the middles of the sides 01, 12, 20.
+    triangles : ndarray of int, shape (M, 3), (M, 4) or (M, 6)
+        Corners of the elements: triangles, or with four quadrilaterals too, and -1 in the last place of a triangle. With
+        six nodes triangles, corners and then the middles of the sides 01, 12, 20.
     regions : ndarray of int, shape (M,), optional
-        A label for each triangle. Vertices between two labels are held.
+        A label for each element. Vertices between two labels are held.
     fixed : ndarray of bool, shape (N,), optional
         Vertices to hold.
     other_cells : ndarray of bool, shape (N,), optional
-        Vertices of cells that are not triangles. They are held, too.
+        Vertices of cells that are no elements. They are held, too.
     lines : ndarray of int, shape (K, 2), optional
         Where vertices may slide: edges of straight line cells, which then are not among ``other_cells``. May be empty.
     line_tags : ndarray of int, shape (K,), optional

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Triangle meshes of scikit-fem: MeshTri1 and MeshTri2."""
+"""Plane meshes of scikit-fem: MeshTri1, MeshTri2 and MeshQuad1."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
 
     Parameters
     ----------
-    mesh : skfem.MeshTri1 or skfem.MeshTri2
+    mesh : skfem.MeshTri1, skfem.MeshTri2 or skfem.MeshQuad1
     regions : None, False, str, list of str or array_like
-        None: all subdomains. A name or names: of subdomains. An array: a label for each triangle.
+        None: all subdomains. A name or names: of subdomains. An array: a label for each element.
     fixed : None, False, str, list of str or array_like
         None: the ends of all named boundaries, which may lie inside of the mesh. False: none of them. A name or names:
         only those of these boundaries. An array, a mask or vertex numbers: those vertices, besides all named
@@ -62,7 +62,7 @@ def flatten(mesh: Any, regions: Any = None, fixed: Any = None, lines: bool = Fal
         mask = mask | of_boundaries
     return FlatMesh(
         points,
-        np.ascontiguousarray(_triangles(mesh)),
+        np.ascontiguousarray(_elements(mesh)),
         regions=choose_regions(regions, mesh.nelements, default=default_regions, named=named_regions),
         fixed=mask,
         lines=mesh.facets[:, facets].T,
@@ -83,8 +83,8 @@ def with_points(mesh: Any, flat: FlatMesh, points: np.ndarray, inplace: bool) ->
     return mesh
 
 
-def _triangles(mesh: Any) -> np.ndarray:
-    """Return the nodes of the triangles, of shape (M, 3) or (M, 6)."""
+def _elements(mesh: Any) -> np.ndarray:
+    """Return the nodes of the elements, of shape (M, 3), (M, 4) or (M, 6)."""
     # The degrees of freedom of a MeshTri2 are its corners, then the middles of the sides 01, 12 and 02.
     return np.asarray(mesh.dofs.element_dofs.T if "MeshTri2" in _class_names(mesh) else mesh.t.T)
 
@@ -95,7 +95,7 @@ def _class_names(mesh: Any) -> set[str]:
 
 def _check(mesh: Any) -> None:
     names = _class_names(mesh)
-    if "MeshTri1" not in names:
-        raise TypeError(f"points: a {type(mesh).__name__} is no MeshTri1 or MeshTri2")
+    if not names & {"MeshTri1", "MeshQuad1"} or "MeshQuad2" in names:
+        raise TypeError(f"points: a {type(mesh).__name__} is no MeshTri1, MeshTri2 or MeshQuad1")
     if "MeshDG" in names:
-        raise TypeError(f"points: the triangles of a {type(mesh).__name__} share no vertices, so none could move")
+        raise TypeError(f"points: the elements of a {type(mesh).__name__} share no vertices, so none could move")

@@ -14,7 +14,7 @@
 #include "mesh_io/byte_files.h"
 #include "support/scratch_folder.h"
 
-namespace trismooth::triangle_cells_test {
+namespace trismooth::element_cells_test {
 
 using byte_files::contains;
 
@@ -37,7 +37,7 @@ MeshDocument document_of(const std::vector<Cell>& cells) {
 }
 
 std::vector<Triangle> listed(const PlanarMesh& mesh) {
-  return {mesh.triangles.begin(), mesh.triangles.end()};
+  return {mesh.elements.triangles().begin(), mesh.elements.triangles().end()};
 }
 
 TEST_CASE("VTK's Lagrange triangles of order 1 and 2 are triangles of three and six nodes, beside ordinary ones") {
@@ -85,11 +85,11 @@ TEST_CASE("quadrilaterals that repeat a corner are the triangles that they look 
                                              {cell_type::quad, {0, 12, 10, 0}},
                                              {cell_type::quad, {2, 2, 4, 14}},
                                              {cell_type::quad, {2, 14, 12, 13}}});
-  const PlanarMesh mesh = planar_mesh(document, "mesh.vtu");
-  REQUIRE(mesh.triangles.size() == 3);
+  const PlanarMesh mesh = planar_mesh(document, "mesh.vtu", trismooth::Quads::hold);
+  REQUIRE(mesh.elements.triangles().size() == 3);
   const std::vector<Triangle> expected{{0, 2, 12}, {0, 12, 10}, {2, 4, 14}};
   for (std::size_t t = 0; t < 3; ++t) {
-    std::vector<std::int32_t> corners(mesh.triangles[t].begin(), mesh.triangles[t].end());
+    std::vector<std::int32_t> corners(mesh.elements.triangles()[t].begin(), mesh.elements.triangles()[t].end());
     const auto first = std::ranges::find(corners, expected[t][0]);
     std::rotate(corners.begin(), first, corners.end());
     CHECK(corners == std::vector<std::int32_t>(expected[t].begin(), expected[t].end()));
@@ -102,4 +102,4 @@ TEST_CASE("quadrilaterals that repeat a corner are the triangles that they look 
   CHECK(contains(notes, "3 quadrilaterals repeat a corner"));
 }
 
-}  // namespace trismooth::triangle_cells_test
+}  // namespace trismooth::element_cells_test

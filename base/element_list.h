@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <vector>
+
+#include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+
+namespace trismooth {
+
+/// The elements of a mesh as they are listed: all of them as Triangle, or all as MixedElement. A view; the caller owns
+/// them. Code that asks for corners one element after the other takes it as a range of spans of three or four corners;
+/// code that is compiled for each list goes by visit().
+class ElementList {
+ public:
+  ElementList() = default;
+  ElementList(std::span<const Triangle> triangles) : triangles_(triangles) {}
+  ElementList(std::span<const MixedElement> elements) : mixed_(elements), is_mixed_(true) {}
+  ElementList(const std::vector<Triangle>& triangles) : triangles_(triangles) {}
+  ElementList(const std::vector<MixedElement>& elements) : mixed_(elements), is_mixed_(true) {}
+
+  [[nodiscard]] std::size_t size() const { return is_mixed_ ? mixed_.size() : triangles_.size(); }
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  /// Whether they are listed as Triangle; else quadrilaterals may be among them.
+  [[nodiscard]] bool are_triangles() const { return !is_mixed_; }
+
+  /// The corners of one, in turn: three or four.
+  std::span<const std::int32_t> operator[](std::size_t element) const {
+    return is_mixed_ ? std::span<const std::int32_t>(mixed_[element])
+                           .first(static_cast<std::size_t>(corner_count(mixed_[element])))
+                     : std::span<const std::int32_t>(triangles_[element]);
+  }
+
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = std::span<const std::int32_t>;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = value_type;
+
+    Iterator(const ElementList& elements, std::size_t element) : elements_(&elements), element_(element) {}
+    std::span<const std::int32_t> operator*() const { return (*elements_)[element_]; }
+    Iterator& operator++() {
+      ++element_;
+      return *this;
+    }
+    Iterator operator++(int) {
+      Iterator before = *this;
+      ++element_;
+      return before;
+    }
+    bool operator==(const Iterator& other) const { return element_ == other.element_; }
+
+   private:
+    const ElementList* elements_;
+    std::size_t element_;
+  };
+  [[nodiscard]] Iterator begin() const { return {*this, 0}; }
+  [[nodiscard]] Iterator end() const { return {*this, size()}; }
+
+  /// All of them, where they are listed so.
+  [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+
+  /// What body() returns of the list: a std::span of Triangle, or of MixedElement.
+  template <class Body>
+  decltype(auto) visit(const Body& body) const {
+    return is_mixed_ ? body(mixed_) : body(triangles_);
+  }
+
+ private:
+  std::span<const Triangle> triangles_;
+  std::span<const MixedElement> mixed_;
+  bool is_mixed_ = false;
+};
+
+/// The corner behind corner i of an element, and the one before it, in turn.
+inline std::int32_t next_corner(std::span<const std::int32_t> corners, std::size_t i) {
+  return corners[i + 1 < corners.size() ? i + 1 : 0];
+}
+inline std::int32_t previous_corner(std::span<const std::int32_t> corners, std::size_t i) {
+  return corners[i > 0 ? i - 1 : corners.size() - 1];
+}
+
+/// The elements of one mesh for evaluation, of whichever kinds. All views; the caller owns.
+struct MeshView {
+  std::span<const Point2<double>> points;    ///< as those of ElementView
+  ElementList elements;                      ///< likewise
+  std::span<const std::uint8_t> reversed{};  ///< likewise
+  int exponent = 0;                          ///< likewise
+
+  MeshView() = default;
+  MeshView(std::span<const Point2<double>> all_points, const ElementList& all_elements,
+           std::span<const std::uint8_t> are_reversed = {}, int frame_exponent = 0)
+      : points(all_points), elements(all_elements), reversed(are_reversed), exponent(frame_exponent) {}
+  MeshView(const TriangleView& view)
+      : points(view.points), elements(view.elements), reversed(view.reversed), exponent(view.exponent) {}
+
+  /// What body() returns of an ElementView: of Triangle, or of MixedElement with triangles among them.
+  template <class Body>
+  decltype(auto) visit(const Body& body) const {
+    return elements.visit([&]<class Corners>(std::span<const Corners> listed) -> decltype(auto) {
+      return body(ElementView<Corners>{points, listed, reversed, exponent});
+    });
+  }
+};
+
+}  // namespace trismooth
