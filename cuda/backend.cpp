@@ -8,6 +8,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -68,7 +69,9 @@ SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, D
 
 class RingSmoother final : public PreparedSmoother {
  public:
-  RingSmoother(const MeshRings& mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
+  /// Of triangles, or of MixedElements: without sliding and untangling then.
+  template <class Corners>
+  RingSmoother(const MeshRings& mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
                const SmoothingOptions& options)
       : copier_(context_, options.threads),
         stored_(context_, with_room_for(mesh.rings, options, local.size())),
@@ -81,12 +84,14 @@ class RingSmoother final : public PreparedSmoother {
       smoother_->slide_on(mesh.slidable, mesh.slidable.flags_of_triangles(mesh.reversed));
     }
     is_to_slide_ = mesh.slidable.is_wanted();
-    if (options.untangles()) {
-      untangling_.emplace(mesh.fixed, triangles, options, mesh.slidable);
-      reversed_ = mesh.reversed;
+    if constexpr (std::is_same_v<Corners, Triangle>) {
+      if (options.untangles()) {
+        untangling_.emplace(mesh.fixed, elements, options, mesh.slidable);
+        reversed_ = mesh.reversed;
+      }
     }
     if (options.measures_shape() || options.untangles()) {
-      fixed_elements_ = FixedElements(triangles, mesh.reversed, mesh.fixed, copier_.workers());
+      fixed_elements_ = FixedElements(elements, mesh.reversed, mesh.fixed, copier_.workers());
     }
     context_.synchronize();
     prepare_ms_ = watch.milliseconds();
@@ -273,6 +278,20 @@ class CudaBackend final : public Backend {
       return cpu_backend().prepare(mesh, triangles, local, options);
     }
     return on_device(std::make_unique<RingSmoother>(mesh, triangles, local, options));
+  }
+
+  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
+                                                  std::span<const Point2<double>> local,
+                                                  const SmoothingOptions& options) const override {
+    options.validate();
+    if (options.execution != Execution::resident) {
+      throw std::invalid_argument("execution '" + std::string(to_string(options.execution)) +
+                                  "' smooths triangles alone: quadrilaterals by execution 'resident'");
+    }
+    const SmoothingOptions of_sweeps = options_of_mixed(options);
+    const DeviceScope scope(device_);
+    require_device();
+    return on_device(std::make_unique<RingSmoother>(mesh, elements, local, of_sweeps));
   }
 
   std::unique_ptr<Follower> follower(const MeshAtRest& mesh, MeshRings rings,

@@ -22,13 +22,14 @@ std::size_t memory_need(const MeshSize& size, const SmoothingOptions& options) {
   const auto vertices = static_cast<std::size_t>(size.vertices);
   const auto free_vertices = static_cast<std::size_t>(size.free_vertices);
   const auto ring_entries = static_cast<std::size_t>(size.ring_entries);
-  const std::size_t rings = vertices * index_bytes + ring_entries * index_bytes;
+  const std::size_t rings = (vertices + (size.has_quadrilaterals ? 2 : 1) * ring_entries) * index_bytes;
   // Patches of small meshes take more than what they stand in for, which matters to no device.
-  const auto [packed, engine] = with_rings_kind(options, [&]<class Rings>(std::type_identity<Rings>) {
-    return std::pair(Rings::bytes(size), options.precision == Precision::double_precision
-                                             ? EngineOver<double, Rings>::bytes(size)
-                                             : EngineOver<float, Rings>::bytes(size));
-  });
+  const auto [packed, engine] =
+      with_rings_kind(options, size.has_quadrilaterals, [&]<class Rings>(std::type_identity<Rings>) {
+        return std::pair(Rings::bytes(size), options.precision == Precision::double_precision
+                                                 ? EngineOver<double, Rings>::bytes(size)
+                                                 : EngineOver<float, Rings>::bytes(size));
+      });
   const std::size_t sorting = vertices * (2 * sizeof(std::uint64_t) + 4 * index_bytes);
   const std::size_t packing = rings + std::max(sorting, 3 * vertices * index_bytes + packed);
   const std::size_t guard = free_vertices;

@@ -92,6 +92,12 @@ class SeveralDevices final : public Backend {
     return std::make_unique<SharedSmoother>(std::move(mesh), triangles, local, options, devices_);
   }
 
+  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings /*mesh*/, std::span<const MixedElement> /*elements*/,
+                                                  std::span<const Point2<double>> /*local*/,
+                                                  const SmoothingOptions& /*options*/) const override {
+    throw std::invalid_argument("several devices smooth triangles alone: quadrilaterals on one device");
+  }
+
  private:
   Devices devices_;
 };

@@ -16,7 +16,11 @@ template <class T, class Rings>
 struct EngineOf;
 template <class T, Form form>
 struct EngineOf<T, GridRings<form>> {
-  using Type = GridEngine<T, form>;
+  using Type = GridEngine<T, form, GridRings<form>>;
+};
+template <class T, Form form>
+struct EngineOf<T, MixedRings<form>> {
+  using Type = GridEngine<T, form, MixedRings<form>>;
 };
 template <class T>
 struct EngineOf<T, PatchedRings> {
@@ -29,10 +33,16 @@ struct EngineOf<T, PaperRings<layout>> {
 template <class T, class Rings>
 using EngineOver = typename EngineOf<T, Rings>::Type;
 
+template <class T, class AllRings>
+struct EnginesOver;
+template <class T, class... Rings>
+struct EnginesOver<T, std::variant<Rings...>> {
+  using Type = std::variant<EngineOver<T, Rings>...>;
+};
+
 /// A packed mesh at work: owns its rings and what its sweeps need beside them. Their functions are said at GridEngine.
 template <class T>
-using SweepEngine = std::variant<GridEngine<T, Form::swap>, GridEngine<T, Form::in_place>, PatchEngine<T>,
-                                 PaperEngine<T, Layout::aos>, PaperEngine<T, Layout::soa>>;
+using SweepEngine = typename EnginesOver<T, EngineRings>::Type;
 
 /// The engine for these rings, of a mesh with a free vertex. `context` outlives it.
 template <class T>

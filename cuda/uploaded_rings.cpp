@@ -13,7 +13,8 @@
 namespace trismooth::cuda {
 
 void require_room_for(const OneRings& rings, const SmoothingOptions& options) {
-  const MeshSize size{rings.vertex_count(), rings.vertex_count(), std::ssize(rings.neighbours)};
+  const MeshSize size{rings.vertex_count(), rings.vertex_count(), std::ssize(rings.neighbours),
+                      !rings.opposites.empty()};
   require_memory(memory_need(size, options) + static_cast<std::size_t>(size.vertices) * sizeof(Point2<double>));
 }
 
@@ -24,7 +25,8 @@ DeviceRings uploaded(HostCopier& copier, const OneRings& rings) {
     std::transform(rings.offsets.begin() + begin, rings.offsets.begin() + end, offsets.begin() + begin,
                    [](std::int64_t offset) { return static_cast<std::uint32_t>(offset); });
   });
-  return {copier.uploaded(std::span<const std::uint32_t>(offsets)), copier.uploaded(std::span(rings.neighbours))};
+  return {copier.uploaded(std::span<const std::uint32_t>(offsets)), copier.uploaded(std::span(rings.neighbours)),
+          copier.uploaded(std::span(rings.opposites))};
 }
 
 }  // namespace trismooth::cuda

@@ -29,7 +29,6 @@ class CudaOrCpu final : public Backend {
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override;
 
-  /// By the CPU. Of a mesh that is large enough for CUDA the result's note says so.
   bool takes_quadrilaterals() const override { return true; }
   std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
                                                   std::span<const Point2<double>> local,
@@ -41,6 +40,11 @@ class CudaOrCpu final : public Backend {
                                       const Constraints& constraints, const SmoothingOptions& options) const override;
 
  private:
+  /// Of triangles or of MixedElements, by whoever the mesh is large enough for.
+  template <class Corners>
+  std::unique_ptr<PreparedSmoother> prepare_by_size(MeshRings mesh, std::span<const Corners> elements,
+                                                    std::span<const Point2<double>> local,
+                                                    const SmoothingOptions& options) const;
   bool is_large(std::int64_t vertices) const { return cuda_.backend != nullptr && vertices >= free_vertices_; }
 
   CudaSupport cuda_;

@@ -529,14 +529,7 @@ class CpuBackend final : public Backend {
                                                   std::span<const Point2<double>> local,
                                                   const SmoothingOptions& options) const override {
     require_available(options);
-    if (options.untangle == Untangle::on) {
-      throw std::invalid_argument(
-          "untangling is of triangles alone, and there are quadrilaterals; smoothing by method 'laplacian' first mends "
-          "many");
-    }
-    SmoothingOptions of_sweeps = options;
-    of_sweeps.untangle = Untangle::off;
-    return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, of_sweeps, nullptr);
+    return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, options_of_mixed(options), nullptr);
   }
 
  private:
@@ -549,6 +542,17 @@ class CpuBackend final : public Backend {
 };
 
 }  // namespace
+
+SmoothingOptions options_of_mixed(const SmoothingOptions& options) {
+  if (options.untangle == Untangle::on) {
+    throw std::invalid_argument(
+        "untangling is of triangles alone, and there are quadrilaterals; smoothing by method 'laplacian' first mends "
+        "many");
+  }
+  SmoothingOptions of_sweeps = options;
+  of_sweeps.untangle = Untangle::off;
+  return of_sweeps;
+}
 
 std::unique_ptr<PreparedSmoother> prepare_part(MeshRings mesh, std::span<const Triangle> triangles,
                                                std::span<const Point2<double>> local, const SmoothingOptions& options,

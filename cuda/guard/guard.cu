@@ -30,7 +30,8 @@ __device__ void raise(unsigned long long* word, unsigned long long key) {
 /// Keys of the elements of moved vertices that a thread looks at.
 class KeyTally {
  public:
-  __device__ void operator()(const JudgedElement& element) {
+  template <class Corner>
+  __device__ void operator()(const JudgedElement<Corner>& element) {
     if (element.moved()) {
       const Quotients found = quotients(element);
       const double worsened = worsened_quotient(found.before, found.after);
@@ -111,7 +112,8 @@ class OffenderSearch {
   __device__ OffenderSearch(const GuardWork& work, unsigned long long threshold, std::uint32_t* listed)
       : work_(work), threshold_(from_falling_key(threshold)), listed_(listed) {}
 
-  __device__ void operator()(const JudgedElement& element) const {
+  template <class Corner>
+  __device__ void operator()(const JudgedElement<Corner>& element) const {
     if (!element.moved()) {
       return;
     }
@@ -238,7 +240,7 @@ class Rounds {
   }
 
   /// Puts back what has been listed since the last round. The keys of blocks that may hold one of its elements are
-  /// outdated: a vertex and its neighbours are the corners that elements may be looked at from.
+  /// outdated: a vertex and those around it are the corners that elements may be looked at from.
   __device__ void take_back(std::uint32_t begin, std::uint32_t end) const {
     for (std::int64_t i = begin + thread_index(); i < end; i += threads_) {
       const std::int32_t v = work_.list[i].vertex;
@@ -249,9 +251,7 @@ class Rounds {
       if (v < view_.rings.size) {
         const std::int32_t size = view_.rings.ring_size(v);
         const auto ring = view_.rings.ring(v);
-        for (std::int32_t k = 0; k < size; ++k) {
-          judge_again(ring[k]);
-        }
+        for_vertices_around(ring, size, [&](std::int32_t other) { judge_again(other); });
       } else {
         const std::int32_t fan = view_.held.fan_of[v - view_.rings.size];
         for (std::int32_t k = view_.held.fans[fan]; k < view_.held.fans[fan + 1]; ++k) {
@@ -416,9 +416,11 @@ DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const Guar
   template DeviceGuardOutcome finish_guard(Context&, const Rings&, const GuardInput<T>&, GuardBuffers&,               \
                                            Point2<double>*, GuardState*, GuardState, std::int64_t&)
 INSTANTIATE(float, RingsView);
+INSTANTIATE(float, MixedRingsView);
 INSTANTIATE(float, SlottedRingsView<std::int16_t>);
 INSTANTIATE(float, SlottedRingsView<std::int32_t>);
 INSTANTIATE(double, RingsView);
+INSTANTIATE(double, MixedRingsView);
 INSTANTIATE(double, SlottedRingsView<std::int16_t>);
 INSTANTIATE(double, SlottedRingsView<std::int32_t>);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/guard/stored_point.cuh"
@@ -91,10 +92,11 @@ struct Quotients {
   double after;
 };
 
-/// An element around a vertex.
+/// An element around a vertex, with its corner there.
+template <class Corner>
 struct JudgedElement {
   JudgedVertex own;
-  TriangleCorner<JudgedVertex> corner;
+  Corner corner;
 
   /// Calls visit(vertex) for all its vertices.
   template <class Visit>
@@ -109,7 +111,7 @@ struct JudgedElement {
 
 /// The shape quotients of an element in canonical order, before and after. The corner with the smallest input number is
 /// brought to the front without branches, so that the threads of a warp divide together.
-__device__ inline Quotients quotients(const JudgedElement& element) {
+__device__ inline Quotients quotients(const JudgedElement<TriangleCorner<JudgedVertex>>& element) {
   const JudgedVertex& a = element.own;
   const auto& [b, c] = element.corner;
   const bool a_first = a.input <= b.input && a.input <= c.input;
@@ -124,9 +126,28 @@ __device__ inline Quotients quotients(const JudgedElement& element) {
   return {quotient(a.before, b.before, c.before), quotient(a.after, b.after, c.after)};
 }
 
+/// Those of a quadrilateral, turned by two corners and by one.
+__device__ inline Quotients quotients(const JudgedElement<QuadrilateralCorner<JudgedVertex>>& element) {
+  const JudgedVertex& a = element.own;
+  const auto& [b, c, d] = element.corner;
+  const bool by_two = min(c.input, d.input) < min(a.input, b.input);
+  const bool by_one = by_two ? d.input < c.input : b.input < a.input;
+  const auto either = [](bool first, Point2<double> if_first, Point2<double> if_not) {
+    return Point2<double>{first ? if_first.x : if_not.x, first ? if_first.y : if_not.y};
+  };
+  const auto pick = [&](Point2<double> if_none, Point2<double> if_one, Point2<double> if_two, Point2<double> if_both) {
+    return either(by_one, either(by_two, if_both, if_one), either(by_two, if_two, if_none));
+  };
+  const auto quotient = [&](Point2<double> p, Point2<double> q, Point2<double> r, Point2<double> s) {
+    return shape_quotient(pick(p, q, r, s), pick(q, r, s, p), pick(r, s, p, q), pick(s, p, q, r));
+  };
+  return {quotient(a.before, b.before, c.before, d.before), quotient(a.after, b.after, c.after, d.after)};
+}
+
 /// Calls visit(element) for the elements around the vertex whose corners have numbers from `lowest` on, of which v is
-/// one. Each corner is looked at once, but for one. (A walk of its own beside for_elements_around(): many corners do
-/// not count, and a device need not wait for where these are.)
+/// one. Each corner is looked at once, but for one; those of a mesh with quadrilaterals more often. (A walk of
+/// triangles' own beside for_elements_around(): many corners do not count, and a device need not wait for where these
+/// are.)
 template <class View, class Visit>
 __device__ void for_elements(const View& view, const Positions<View>& positions, std::int32_t v, std::int32_t lowest,
                              Visit& visit) {
@@ -136,6 +157,16 @@ __device__ void for_elements(const View& view, const Positions<View>& positions,
   }
   const auto ring = view.rings.ring(v);
   const JudgedVertex own = positions.judged(v);
+  if constexpr (MixedRing<decltype(ring)>) {
+    for_elements_around(ring, [&](const auto& corner) {
+      if (corner.all([&](std::int32_t number) { return number >= lowest; })) {
+        const auto judged = corner.with([&](std::int32_t number) { return positions.judged(number); });
+        visit(JudgedElement<std::remove_const_t<decltype(judged)>>{own, judged});
+      }
+    });
+    return;
+  }
+  using Triangle = JudgedElement<TriangleCorner<JudgedVertex>>;
   JudgedVertex last{};
   bool has_last = false;
   std::int32_t number = ring[size - 1];
@@ -146,7 +177,7 @@ __device__ void for_elements(const View& view, const Positions<View>& positions,
     if (counts) {
       next = positions.judged(number);
       if (has_last) {
-        visit(JudgedElement{own, {last, next}});
+        visit(Triangle{own, {last, next}});
       }
     }
     last = next;

@@ -28,21 +28,34 @@ __device__ std::int32_t current_colour(const std::int32_t* colours, std::int32_t
   return *static_cast<const volatile std::int32_t*>(colours + vertex);
 }
 
-/// The smallest colour that no neighbour before the vertex has; uncoloured while one of those has none.
-__device__ std::int32_t smallest_free_colour(const RingsView& rings, std::int32_t v, const std::int32_t* colours) {
+/// The smallest colour that no other vertex of its elements before the vertex has; uncoloured while one of those has
+/// none.
+template <class Rings>
+__device__ std::int32_t smallest_free_colour(const Rings& rings, std::int32_t v, const std::int32_t* colours) {
   constexpr std::int32_t bits = 64;
-  const std::int32_t* const ring = rings.ring(v);
+  const auto ring = rings.ring(v);
   for (std::int32_t first = 0;; first += bits) {
     std::uint64_t taken = 0;
-    for (std::int32_t i = 0; i < rings.ring_size(v); ++i) {
-      const std::int32_t neighbour = ring[i];
-      if (rings.ring_size(neighbour) != 0 && coloured_before(neighbour, v)) {
-        const std::int32_t colour = current_colour(colours, neighbour);
+    // False where it has to wait for that one.
+    const auto leave_to = [&](std::int32_t other) {
+      if (rings.ring_size(other) != 0 && coloured_before(other, v)) {
+        const std::int32_t colour = current_colour(colours, other);
         if (colour == uncoloured) {
-          return uncoloured;
+          return false;
         }
         if (colour >= first && colour < first + bits) {
           taken |= std::uint64_t{1} << static_cast<unsigned>(colour - first);
+        }
+      }
+      return true;
+    };
+    for (std::int32_t i = 0; i < rings.ring_size(v); ++i) {
+      if (!leave_to(ring[i])) {
+        return uncoloured;
+      }
+      if constexpr (MixedRing<decltype(ring)>) {
+        if (ring.is_quadrilateral(i) && !leave_to(ring[ring.size() + i])) {
+          return uncoloured;
         }
       }
     }
@@ -52,7 +65,8 @@ __device__ std::int32_t smallest_free_colour(const RingsView& rings, std::int32_
   }
 }
 
-__global__ void colour_round(RingsView rings, std::int32_t* colours, Progress* progress) {
+template <class Rings>
+__global__ void colour_round(Rings rings, std::int32_t* colours, Progress* progress) {
   const std::int64_t i = thread_index();
   if (i >= rings.size) {
     return;
@@ -71,21 +85,25 @@ __global__ void colour_round(RingsView rings, std::int32_t* colours, Progress* p
 }
 
 /// Colours on the host what the rounds have left.
-void colour_the_rest_on_host(Context& context, const RingsView& rings, DeviceColouring& colouring) {
+template <class Rings>
+void colour_the_rest_on_host(Context& context, const Rings& rings, DeviceColouring& colouring) {
   const auto vertex_count = static_cast<std::size_t>(rings.size);
   const std::vector<std::uint32_t> narrow = download(context, rings.offsets, vertex_count + 1);
   const std::vector<std::int64_t> offsets(narrow.begin(), narrow.end());
-  const std::vector<std::int32_t> neighbours =
-      download(context, rings.neighbours, static_cast<std::size_t>(offsets.back()));
+  const auto entries = static_cast<std::size_t>(offsets.back());
+  const std::vector<std::int32_t> neighbours = download(context, rings.neighbours, entries);
+  std::vector<std::int32_t> opposites;
+  if constexpr (requires { rings.opposites; }) {
+    opposites = download(context, rings.opposites, entries);
+  }
   std::vector<std::int32_t> colours = download(context, colouring.colours.data(), vertex_count);
-  colour_the_rest({offsets, neighbours, {}}, colours);
+  colour_the_rest({offsets, neighbours, {}, opposites}, colours);
   colouring.colours.upload(colours);
   colouring.count = *std::ranges::max_element(colours) + 1;
 }
 
-}  // namespace
-
-DeviceColouring colour_vertices(Context& context, const RingsView& rings) {
+template <class Rings>
+DeviceColouring coloured(Context& context, const Rings& rings) {
   DeviceColouring colouring;
   colouring.colours = DeviceBuffer<std::int32_t>(context, static_cast<std::size_t>(rings.size));
   colouring.colours.fill_bytes(0xff);
@@ -107,6 +125,16 @@ DeviceColouring colour_vertices(Context& context, const RingsView& rings) {
     colour_the_rest_on_host(context, rings, colouring);
   }
   return colouring;
+}
+
+}  // namespace
+
+DeviceColouring colour_vertices(Context& context, const RingsView& rings) {
+  return coloured(context, rings);
+}
+
+DeviceColouring colour_vertices(Context& context, const MixedRingsView& rings) {
+  return coloured(context, rings);
 }
 
 }  // namespace trismooth::cuda

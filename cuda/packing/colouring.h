@@ -19,9 +19,10 @@ struct DeviceColouring {
 };
 
 /// Greedy colouring of the vertices with a ring in the order of splitmix64(vertex), by all threads: in each round those
-/// are coloured whose neighbours before them all are (Jones and Plassmann 1993). `rings` are in input numbering. What
-/// is left after most_rounds, where a chain of vertices runs against the order, the host colours: linear for every
-/// mesh.
+/// are coloured whose neighbours before them, and vertices opposite in quadrilaterals, all are (Jones and Plassmann
+/// 1993). `rings` are in input numbering. What is left after most_rounds, where a chain of vertices runs against the
+/// order, the host colours: linear for every mesh.
 DeviceColouring colour_vertices(Context& context, const RingsView& rings);
+DeviceColouring colour_vertices(Context& context, const MixedRingsView& rings);
 
 }  // namespace trismooth::cuda

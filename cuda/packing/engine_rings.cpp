@@ -39,6 +39,21 @@ std::size_t GridRings<form>::bytes(const MeshSize& size) {
 template struct GridRings<Form::swap>;
 template struct GridRings<Form::in_place>;
 
+template <Form form>
+MixedRings<form> MixedRings<form>::pack(Context& context, UnpackedMesh& mesh, const SmoothingOptions& /*options*/,
+                                        VertexOrder& order) {
+  const Renumbering numbers = reorder(context, mesh, Windows::by_size, order);
+  return {renumbered(context, numbers, mesh.rings)};
+}
+
+template <Form form>
+std::size_t MixedRings<form>::bytes(const MeshSize& size) {
+  return static_cast<std::size_t>(size.free_vertices + 2 * size.ring_entries) * sizeof(std::int32_t);
+}
+
+template struct MixedRings<Form::swap>;
+template struct MixedRings<Form::in_place>;
+
 std::optional<PatchedRings> PatchedRings::pack(Context& context, UnpackedMesh& mesh, const SmoothingOptions& options,
                                                VertexOrder& order) {
   const RingsView from = mesh.rings.view();
@@ -52,7 +67,7 @@ std::optional<PatchedRings> PatchedRings::pack(Context& context, UnpackedMesh& m
   order.colours = colour_count;
   order_vertices(context, from, std::move(points), nullptr, 1, Windows::none, order);
   const Renumbering numbers(context, from, order.input_index.data(), order.free_count());
-  DeviceRings rings = renumbered(context, numbers, mesh.rings.neighbours.size());
+  DeviceRings rings = renumbered(context, numbers, mesh.rings);
   const DeviceBuffer<std::uint8_t> colours = renumbered(context, numbers, mesh.colouring.colours.data());
   std::optional<Patches> patches =
       Patches::cut(context, rings.view(), from.size, colours.data(), colour_count, options);
@@ -69,7 +84,7 @@ PaperRings<layout> PaperRings<layout>::pack(Context& context, UnpackedMesh& mesh
                                             VertexOrder& order) {
   // The paper's versions read a neighbour where it lies in memory: being near counts for more than rings of like size.
   const Renumbering numbers = reorder(context, mesh, Windows::none, order);
-  return {renumbered(context, numbers, mesh.rings.neighbours.size()), options.execution == Execution::cdp};
+  return {renumbered(context, numbers, mesh.rings), options.execution == Execution::cdp};
 }
 
 template <Layout layout>
@@ -90,14 +105,17 @@ PackedMesh pack(Context& context, DeviceRings rings, DeviceBuffer<Point2<double>
   }
   DeviceColouring colouring;
   if (options.form == Form::in_place && options.order == Order::colour) {
-    colouring = colour_vertices(context, source.view());
+    colouring = source.has_quadrilaterals() ? colour_vertices(context, source.mixed_view())
+                                            : colour_vertices(context, source.view());
   }
   UnpackedMesh mesh{source, points, colouring};
-  if (std::optional<PatchedRings> patched = PatchedRings::pack(context, mesh, options, packed.order)) {
-    packed.rings = std::move(*patched);
-    return packed;
+  if (!source.has_quadrilaterals()) {
+    if (std::optional<PatchedRings> patched = PatchedRings::pack(context, mesh, options, packed.order)) {
+      packed.rings = std::move(*patched);
+      return packed;
+    }
   }
-  with_rings_kind(options, [&]<class Rings>(std::type_identity<Rings>) {
+  with_rings_kind(options, source.has_quadrilaterals(), [&]<class Rings>(std::type_identity<Rings>) {
     packed.rings = Rings::pack(context, mesh, options, packed.order);
   });
   return packed;

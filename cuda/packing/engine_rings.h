@@ -25,6 +25,7 @@ struct MeshSize {
   std::int64_t vertices = 0;
   std::int64_t free_vertices = 0;
   std::int64_t ring_entries = 0;  ///< the sizes of all rings together
+  bool has_quadrilaterals = false;
 };
 
 /// A mesh in input numbering before it is packed, on the device.
@@ -39,6 +40,7 @@ struct UnpackedMesh {
 template <Form form>
 struct GridRings {
   using Slot = std::conditional_t<form == Form::swap, std::int16_t, std::int32_t>;
+  using View = SlottedRingsView<Slot>;
 
   SlottedRings<Slot> rings;
 
@@ -47,7 +49,20 @@ struct GridRings {
   /// An estimate of the device memory that they take.
   static std::size_t bytes(const MeshSize& size);
 
-  SlottedRingsView<Slot> view() const { return rings.view(); }
+  View view() const { return rings.view(); }
+};
+
+/// Those of a mesh with quadrilaterals, for the same engine.
+template <Form form>
+struct MixedRings {
+  using View = MixedRingsView;
+
+  DeviceRings rings;
+
+  static MixedRings pack(Context& context, UnpackedMesh& mesh, const SmoothingOptions& options, VertexOrder& order);
+  static std::size_t bytes(const MeshSize& size);
+
+  View view() const { return rings.mixed_view(); }
 };
 
 /// Execution::resident on patches in shared memory: small meshes. All free vertices are one batch.
@@ -75,13 +90,17 @@ struct PaperRings {
   RingsView view() const { return rings.view(); }
 };
 
-using EngineRings = std::variant<GridRings<Form::swap>, GridRings<Form::in_place>, PatchedRings,
-                                 PaperRings<Layout::aos>, PaperRings<Layout::soa>>;
+using EngineRings = std::variant<GridRings<Form::swap>, GridRings<Form::in_place>, PatchedRings, MixedRings<Form::swap>,
+                                 MixedRings<Form::in_place>, PaperRings<Layout::aos>, PaperRings<Layout::soa>>;
 
-/// Calls visit(std::type_identity<Kind>{}) with the kind of rings for these options. Where it is GridRings, a mesh that
-/// patches suit gets PatchedRings instead.
+/// Calls visit(std::type_identity<Kind>{}) with the kind of rings for these options, and for a mesh with quadrilaterals
+/// or without. Where it is GridRings, a mesh that patches suit gets PatchedRings instead.
 template <class Visit>
-decltype(auto) with_rings_kind(const SmoothingOptions& options, const Visit& visit) {
+decltype(auto) with_rings_kind(const SmoothingOptions& options, bool has_quadrilaterals, const Visit& visit) {
+  if (has_quadrilaterals) {
+    return options.form == Form::swap ? visit(std::type_identity<MixedRings<Form::swap>>{})
+                                      : visit(std::type_identity<MixedRings<Form::in_place>>{});
+  }
   if (options.execution != Execution::resident) {
     return options.layout == Layout::aos ? visit(std::type_identity<PaperRings<Layout::aos>>{})
                                          : visit(std::type_identity<PaperRings<Layout::soa>>{});
@@ -98,7 +117,8 @@ struct PackedMesh {
 
 /// Packs rings in input numbering for a run with these options, and gives their memory back on the way. `points` (one
 /// for every vertex, local frame, on the device) steer the order; their memory goes back too. In Form B in colour order
-/// there is a batch for each colour, unless there are patches; else one batch of all free vertices.
+/// there is a batch for each colour, unless there are patches; else one batch of all free vertices. With quadrilaterals
+/// the execution is Execution::resident.
 PackedMesh pack(Context& context, DeviceRings rings, DeviceBuffer<Point2<double>> points,
                 const SmoothingOptions& options);
 

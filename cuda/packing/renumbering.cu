@@ -37,6 +37,19 @@ __global__ void copy_rings(RenumberingView numbers, const std::uint32_t* offsets
   }
 }
 
+/// The vertices opposite in quadrilaterals; triangles have none.
+__global__ void copy_opposites(RenumberingView numbers, const std::int32_t* from, const std::uint32_t* offsets,
+                               std::int32_t* opposites) {
+  const std::int64_t i = thread_index();
+  if (i >= numbers.free_count) {
+    return;
+  }
+  const std::int32_t* const ring = from + numbers.from.offsets[numbers.input_index[i]];
+  for (std::uint32_t k = 0; k < offsets[i + 1] - offsets[i]; ++k) {
+    opposites[offsets[i] + k] = ring[k] == no_corner ? no_corner : numbers.new_number[ring[k]];
+  }
+}
+
 /// Fills the records of all rings that fit one, and the sizes of those that do not (0 where one does).
 template <class Slot>
 __global__ void fill_records(RenumberingView numbers, RingRecord<Slot>* records, std::uint32_t* long_sizes) {
@@ -96,12 +109,13 @@ Renumbering::Renumbering(Context& context, const RingsView& from, const std::int
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 
-DeviceRings renumbered(Context& context, const Renumbering& numbers, std::size_t entries) {
+DeviceRings renumbered(Context& context, const Renumbering& numbers, const DeviceRings& from) {
   const RenumberingView view = numbers.view();
   DeviceRings to;
   to.offsets = DeviceBuffer<std::uint32_t>(context, static_cast<std::size_t>(view.free_count) + 1);
   to.offsets.fill_bytes(0);
-  to.neighbours = DeviceBuffer<std::int32_t>(context, entries);
+  to.neighbours = DeviceBuffer<std::int32_t>(context, from.neighbours.size());
+  to.opposites = DeviceBuffer<std::int32_t>(context, from.opposites.size());
   if (view.free_count > 0) {
     const unsigned blocks = blocks_for(view.free_count);
     find_ring_sizes<<<blocks, block_size, 0, context.stream()>>>(view, to.offsets.data());
@@ -109,6 +123,11 @@ DeviceRings renumbered(Context& context, const Renumbering& numbers, std::size_t
     sum_before(context, to.offsets.data(), std::int64_t{view.free_count} + 1);
     copy_rings<<<blocks, block_size, 0, context.stream()>>>(view, to.offsets.data(), to.neighbours.data());
     TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+    if (from.has_quadrilaterals()) {
+      copy_opposites<<<blocks, block_size, 0, context.stream()>>>(view, from.opposites.data(), to.offsets.data(),
+                                                                  to.opposites.data());
+      TRISMOOTH_CUDA_CHECK(cudaGetLastError());
+    }
   }
   return to;
 }

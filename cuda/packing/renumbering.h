@@ -30,8 +30,8 @@ class Renumbering {
   RenumberingView view_;
 };
 
-/// The rings of the free vertices, `entries` neighbours in all at most.
-DeviceRings renumbered(Context& context, const Renumbering& numbers, std::size_t entries);
+/// The rings of the free vertices. `from`: those that are renumbered.
+DeviceRings renumbered(Context& context, const Renumbering& numbers, const DeviceRings& from);
 /// The rings of the free vertices in records.
 template <class Slot>
 SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers);

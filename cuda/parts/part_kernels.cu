@@ -16,13 +16,15 @@ namespace trismooth::cuda {
 
 namespace {
 
+using Rings = SlottedRingsView<std::int32_t>;
+
 template <class T>
-__device__ SweepData<T, std::int32_t> data_of(const PartBatch<T>& batch) {
+__device__ SweepData<T, Rings> data_of(const PartBatch<T>& batch) {
   return {batch.rings, batch.from, batch.to, batch.next_marks, batch.tolerance};
 }
 
 template <bool marks, class Update, class T>
-__global__ void __launch_bounds__(batch_threads<Update, T>, blocks_at_once<Update, T>)
+__global__ void __launch_bounds__(batch_threads<Update, T, Rings>, blocks_at_once<Update, T, Rings>)
     visit_all(Update method, PartBatch<T> batch, Pieces pieces, SweepSums* sums) {
   __shared__ SweepSums shared;
   const ThreadTally<T> tally = sweep_by_blocks<marks>(method, pieces, data_of(batch));
@@ -45,8 +47,8 @@ __global__ void __launch_bounds__(marked_threads) visit_marked(Update method, Pa
 
 template <bool marks, class Update, class T>
 void launch_all(const Update& update, const PartBatch<T>& batch, SweepSums* sums, cudaStream_t stream) {
-  const auto [blocks, pieces] = launch_of_batch<Update, T>(batch.begin, batch.end, multiprocessor_count());
-  visit_all<marks><<<blocks, batch_threads<Update, T>, 0, stream>>>(update, batch, pieces, sums);
+  const auto [blocks, pieces] = launch_of_batch<Update, T, Rings>(batch.begin, batch.end, multiprocessor_count());
+  visit_all<marks><<<blocks, batch_threads<Update, T, Rings>, 0, stream>>>(update, batch, pieces, sums);
 }
 
 template <class Update, class T>

@@ -365,6 +365,7 @@ void DeviceTargets<T>::find_anew(const Rings& rings, const PointArray<T>& points
 #define INSTANTIATE(T)                                \
   template class DeviceTargets<T>;                    \
   INSTANTIATE_FOR(T, RingsView);                      \
+  INSTANTIATE_FOR(T, MixedRingsView);                 \
   INSTANTIATE_FOR(T, SlottedRingsView<std::int16_t>); \
   INSTANTIATE_FOR(T, SlottedRingsView<std::int32_t>)
 INSTANTIATE(float);

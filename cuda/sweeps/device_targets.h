@@ -33,8 +33,8 @@ class DeviceTargets {
   template <class Rings>
   void keep(const Rings& rings, const PointArray<T>& points, int exponent);
 
-  /// Queues the finding for smoothing from these positions. Nothing where the method is another one. `Rings`: RingsView
-  /// or SlottedRingsView. `frame`: the local frame that they are in, on the device.
+  /// Queues the finding for smoothing from these positions. Nothing where the method is another one. `Rings`:
+  /// RingsView, MixedRingsView or SlottedRingsView. `frame`: the local frame that they are in, on the device.
   template <class Rings>
   void find(const Rings& rings, const PointArray<T>& points, const LocalFrame* frame);
 

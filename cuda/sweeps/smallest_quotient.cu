@@ -30,9 +30,11 @@ void launch_smallest_quotient(const Rings& rings, const PointArray<T>& points, S
 #define INSTANTIATE(T, Rings) \
   template void launch_smallest_quotient(const Rings&, const PointArray<T>&, SweepSums*, cudaStream_t)
 INSTANTIATE(float, RingsView);
+INSTANTIATE(float, MixedRingsView);
 INSTANTIATE(float, SlottedRingsView<std::int16_t>);
 INSTANTIATE(float, SlottedRingsView<std::int32_t>);
 INSTANTIATE(double, RingsView);
+INSTANTIATE(double, MixedRingsView);
 INSTANTIATE(double, SlottedRingsView<std::int16_t>);
 INSTANTIATE(double, SlottedRingsView<std::int32_t>);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "trismooth/cuda/primitives/point_array.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
 namespace trismooth::cuda {
 
@@ -17,6 +18,8 @@ struct RingInMemory {
   __device__ int size() const { return count; }
   __device__ Point2<T> operator[](int i) const { return points.load(ring[i]); }
   __device__ std::int32_t number(int i) const { return ring[i]; }
+  /// Of rings with quadrilaterals, which makes it a MixedRing.
+  __device__ bool is_quadrilateral(int i) const requires MixedRing<Ring> { return ring.is_quadrilateral(i); }
 };
 
 /// That of a vertex among rings of any kind.

@@ -88,7 +88,7 @@ struct MeanRatioEnergy {
 
   /// The energy of a quadrilateral, but for the corner opposite.
   template <class V, bool shaped>
-  constexpr SideTerms<V, 1> value(const SideQuadrilateral<V, shaped>& q) const {
+  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 1> value(const SideQuadrilateral<V, shaped>& q) const {
     const V tau = q.doubled_area * q.inverse_area;
     return with_size(q, SideTerms<V, 1>{{static_cast<T>(power) * (size_weight * (tau + T(1) / tau))}, {}, {}},
                      [](const MeanRatioEnergy& shapes, const auto& corner) { return shapes.value(corner); });
@@ -96,7 +96,7 @@ struct MeanRatioEnergy {
 
   /// The energy and its derivatives, as those of a triangle.
   template <class V, bool shaped>
-  constexpr SideTerms<V, 7> expansion(const SideQuadrilateral<V, shaped>& q) const {
+  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 7> expansion(const SideQuadrilateral<V, shaped>& q) const {
     const V tau = q.doubled_area * q.inverse_area;
     const V inverse_tau = T(1) / tau;
     const V x = -q.c.y * (inverse_tau * q.inverse_area);
@@ -118,8 +118,9 @@ struct MeanRatioEnergy {
  private:
   /// The terms of a quadrilateral: those of its size, and those that its corners have of their shapes.
   template <class V, bool shaped, int count, class TermsOf>
-  constexpr SideTerms<V, count> with_size(const SideQuadrilateral<V, shaped>& q, SideTerms<V, count> result,
-                                          const TermsOf& terms_of) const {
+  constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, count> with_size(const SideQuadrilateral<V, shaped>& q,
+                                                                SideTerms<V, count> result,
+                                                                const TermsOf& terms_of) const {
     const MeanRatioEnergy shapes{power, T(0), least_quotient};
     result.margin = V{} + std::numeric_limits<T>::max();
     result.share = share_of_error(q.doubled_area, q.squares);

@@ -116,7 +116,7 @@ constexpr TRISMOOTH_HOST_DEVICE void add_edges(const TriangleCorner<Point2<T>>& 
 
 /// Those of a quadrilateral.
 template <class T>
-constexpr void add_edges(const QuadrilateralCorner<Point2<T>>& corner, EdgeTensor<T>& edges) {
+constexpr TRISMOOTH_HOST_DEVICE void add_edges(const QuadrilateralCorner<Point2<T>>& corner, EdgeTensor<T>& edges) {
   const auto& [a, o, b] = corner;
   if (cross(o, b - a) > T(0)) {
     edges.add(a);
@@ -191,7 +191,7 @@ constexpr TRISMOOTH_HOST_DEVICE T asked_area(T own, const TriangleCorner<T>& cor
   return T(3) / (own + corner.next + corner.previous);
 }
 template <class T>
-constexpr T asked_area(T own, const QuadrilateralCorner<T>& corner) {
+constexpr TRISMOOTH_HOST_DEVICE T asked_area(T own, const QuadrilateralCorner<T>& corner) {
   return T(4) / ((own + corner.opposite) + (corner.next + corner.previous));
 }
 

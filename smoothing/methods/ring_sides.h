@@ -85,8 +85,8 @@ struct RingQuadrilateral {
 };
 
 template <class T, class V, class Node, class Metric>
-constexpr RingQuadrilateral<V, Metric> side_of(const QuadrilateralCorner<Node>& corner, V inverse_area,
-                                               const Metric& metric) {
+constexpr TRISMOOTH_HOST_DEVICE RingQuadrilateral<V, Metric> side_of(const QuadrilateralCorner<Node>& corner,
+                                                                     V inverse_area, const Metric& metric) {
   const auto& [a, o, b] = corner;
   return {o.position - a.position, b.position - o.position,
           T(0.25) * ((inverse_area + o.inverse_area) + (a.inverse_area + b.inverse_area)), metric};
@@ -148,28 +148,29 @@ struct SideQuadrilateral {
 
 /// The squared length in the metric of a side, and the metric's product with a vector.
 template <class V>
-constexpr V squared_length_in(const EuclideanMetric<V>& /*metric*/, Point2<V> e) {
+constexpr TRISMOOTH_HOST_DEVICE V squared_length_in(const EuclideanMetric<V>& /*metric*/, Point2<V> e) {
   return squared_length(e);
 }
 template <class V>
-constexpr Point2<V> times(const EuclideanMetric<V>& /*metric*/, Point2<V> e) {
+constexpr TRISMOOTH_HOST_DEVICE Point2<V> times(const EuclideanMetric<V>& /*metric*/, Point2<V> e) {
   return e;
 }
 template <class V>
-constexpr Point2<V> times(const EdgeTensor<V>& metric, Point2<V> e) {
+constexpr TRISMOOTH_HOST_DEVICE Point2<V> times(const EdgeTensor<V>& metric, Point2<V> e) {
   return {metric.xx * e.x + metric.xy * e.y, metric.xy * e.x + metric.yy * e.y};
 }
 template <class T, class V>
-constexpr EdgeTensor<V> stiffness_of(const EuclideanMetric<V>& /*metric*/, T factor) {
+constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<V> stiffness_of(const EuclideanMetric<V>& /*metric*/, T factor) {
   return {V{} + factor, V{}, V{} + factor};
 }
 template <class T, class V>
-constexpr EdgeTensor<V> stiffness_of(const EdgeTensor<V>& metric, T factor) {
+constexpr TRISMOOTH_HOST_DEVICE EdgeTensor<V> stiffness_of(const EdgeTensor<V>& metric, T factor) {
   return {factor * metric.xx, factor * metric.xy, factor * metric.yy};
 }
 
 template <class T, class V, class Metric>
-constexpr auto element_of(const QuadrilateralCorner<RingSpoke<V>>& corner, const RingQuadrilateral<V, Metric>& sides) {
+constexpr TRISMOOTH_HOST_DEVICE auto element_of(const QuadrilateralCorner<RingSpoke<V>>& corner,
+                                                const RingQuadrilateral<V, Metric>& sides) {
   constexpr bool shaped = !std::is_same_v<Metric, EuclideanMetric<V>>;
   constexpr T worth = T(shape_constant / 2);
   const auto& [a, o, b] = corner;

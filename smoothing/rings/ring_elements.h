@@ -62,19 +62,19 @@ struct QuadrilateralCorner {
 
   /// The corner where value(node) is known in place of each node.
   template <class Value>
-  constexpr auto with(const Value& value) const {
+  constexpr TRISMOOTH_HOST_DEVICE auto with(const Value& value) const {
     return QuadrilateralCorner<decltype(value(next))>{value(next), value(opposite), value(previous)};
   }
   /// Calls visit(node) for each.
   template <class Visit>
-  constexpr void for_each(const Visit& visit) const {
+  constexpr TRISMOOTH_HOST_DEVICE void for_each(const Visit& visit) const {
     visit(next);
     visit(opposite);
     visit(previous);
   }
   /// Whether is_so(node) of all of them.
   template <class IsSo>
-  constexpr bool all(const IsSo& is_so) const {
+  constexpr TRISMOOTH_HOST_DEVICE bool all(const IsSo& is_so) const {
     return is_so(next) && is_so(opposite) && is_so(previous);
   }
 };
@@ -98,7 +98,7 @@ constexpr TRISMOOTH_HOST_DEVICE void for_elements_around(const Ring& ring, const
 
 /// That of a ring with quadrilaterals. node(i) may be asked for more than once.
 template <MixedRing Ring, class NodeAt, class Visit>
-constexpr void for_elements_around(const Ring& ring, const NodeAt& node, const Visit& visit) {
+constexpr TRISMOOTH_HOST_DEVICE void for_elements_around(const Ring& ring, const NodeAt& node, const Visit& visit) {
   using Node = decltype(node(0));
   const auto size = static_cast<int>(ring.size());
   for (int i = 0; i < size; ++i) {
@@ -126,7 +126,7 @@ constexpr TRISMOOTH_HOST_DEVICE int from_last(const Ring& ring, int i) {
 
 /// A MixedRing keeps its order: no element has to be found there by an earlier one's neighbour.
 template <MixedRing Ring>
-constexpr int from_last(const Ring& /*ring*/, int i) {
+constexpr TRISMOOTH_HOST_DEVICE int from_last(const Ring& /*ring*/, int i) {
   return i;
 }
 
@@ -161,7 +161,7 @@ constexpr TRISMOOTH_HOST_DEVICE T shape_quotient(TriangleCorner<RingSpoke<T>> co
 }
 
 template <class T>
-constexpr T shape_quotient(const QuadrilateralCorner<RingSpoke<T>>& corner) {
+constexpr TRISMOOTH_HOST_DEVICE T shape_quotient(const QuadrilateralCorner<RingSpoke<T>>& corner) {
   const auto& [a, o, b] = corner;
   return T(1 / shape_constant) * shape_of_sides(a.edge, o.end - a.end, b.end - o.end, Point2<T>{-b.edge.x, -b.edge.y});
 }
@@ -182,7 +182,7 @@ constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, cons
 }
 
 template <class T, MixedRing Ring, class Visit>
-constexpr void for_ring_quotients(Point2<T> position, const Ring& ring, const Visit& visit) {
+constexpr TRISMOOTH_HOST_DEVICE void for_ring_quotients(Point2<T> position, const Ring& ring, const Visit& visit) {
   for_elements_around(
       ring, [&](int i) { return spoke_to<T>(ring[i], position); },
       [&](const auto& corner) { visit(shape_quotient(corner)); });
@@ -202,7 +202,7 @@ constexpr TRISMOOTH_HOST_DEVICE ElementSize<V> size_of(const TriangleCorner<Ring
   return {cross(a.edge, b.edge), a.squared + b.squared + squared_length(b.end - a.end)};
 }
 template <class V>
-constexpr ElementSize<V> size_of(const QuadrilateralCorner<RingSpoke<V>>& corner) {
+constexpr TRISMOOTH_HOST_DEVICE ElementSize<V> size_of(const QuadrilateralCorner<RingSpoke<V>>& corner) {
   const auto& [a, o, b] = corner;
   return {V(0.5) * cross(o.edge, b.end - a.end),
           (a.squared + b.squared) + (squared_length(o.end - a.end) + squared_length(o.end - b.end))};
@@ -215,7 +215,8 @@ constexpr TRISMOOTH_HOST_DEVICE V quotient_of(const TriangleCorner<RingSpoke<V>>
   return size.doubled_area / size.squares;
 }
 template <class V>
-constexpr V quotient_of(const QuadrilateralCorner<RingSpoke<V>>& corner, const ElementSize<V>& /*size*/) {
+constexpr TRISMOOTH_HOST_DEVICE V quotient_of(const QuadrilateralCorner<RingSpoke<V>>& corner,
+                                              const ElementSize<V>& /*size*/) {
   const V quotient = shape_quotient(corner);
   return quotient > V(0) ? quotient : V(0);
 }

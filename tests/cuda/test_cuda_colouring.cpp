@@ -33,7 +33,7 @@ int check_colours(const Mesh& mesh) {
   const cuda::DeviceBuffer<std::uint32_t> device_offsets(context, offsets);
   const cuda::DeviceBuffer<std::int32_t> neighbours(context, found.rings.neighbours);
   const cuda::DeviceColouring colouring =
-      cuda::colour_vertices(context, {mesh.vertex_count(), device_offsets.data(), neighbours.data()});
+      cuda::colour_vertices(context, cuda::RingsView{mesh.vertex_count(), device_offsets.data(), neighbours.data()});
   CHECK(colouring.count == expected.count);
   CHECK(cuda::download(context, colouring.colours.data(), colouring.colours.size()) == expected.colours);
   return colouring.rounds;

@@ -18,10 +18,11 @@ constexpr std::int32_t piece_size = 256;
 /// Threads of such a block, and such blocks of a multiprocessor: what their registers allow. Where a method has no
 /// update in registers a thread has one vertex, and they are as many as hide the waiting for memory without taking
 /// registers away.
-template <class Update, class T>
-constexpr std::int32_t batch_threads = has_register_update<Update, T> ? piece_size : 128;
-template <class Update, class T>
-constexpr std::int32_t blocks_at_once = has_register_update<Update, T> ? (sizeof(T) == sizeof(float) ? 3 : 2) : 4;
+template <class Update, class T, class Rings>
+constexpr std::int32_t batch_threads = updates_in_registers<Update, T, Rings> ? piece_size : 128;
+template <class Update, class T, class Rings>
+constexpr std::int32_t blocks_at_once = updates_in_registers<Update, T, Rings> ? (sizeof(T) == sizeof(float) ? 3 : 2)
+                                                                               : 4;
 constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
 
 /// The vertices of a batch in pieces of as many as a block has threads. A block takes 2^run_bits pieces that follow
@@ -45,8 +46,9 @@ constexpr int enough_left_over = 32;
 
 /// Evaluates the block's vertices by methods with an update in registers. `list` is the warp's own.
 template <bool marks, class Update, class T, class Slot>
-__device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces& pieces, const SweepData<T, Slot>& data,
-                                             std::int32_t* list, ThreadTally<T>& tally) {
+__device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces& pieces,
+                                             const SweepData<T, SlottedRingsView<Slot>>& data, std::int32_t* list,
+                                             ThreadTally<T>& tally) {
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
   const auto fetch = [&](std::int64_t first) {
     return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread)
@@ -75,9 +77,9 @@ __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces&
 
 /// Evaluates the block's vertices, a thread each, which reads its ring from memory: by methods without an update in
 /// registers.
-template <bool marks, class Update, class T, class Slot>
+template <bool marks, class Update, class T, class Rings>
 __device__ __forceinline__ void sweep_from_memory(const Update& method, const Pieces& pieces,
-                                                  const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
+                                                  const SweepData<T, Rings>& data, ThreadTally<T>& tally) {
   const std::int64_t v = pieces.begin + thread_index();
   if (v < pieces.end) {
     const auto vertex = static_cast<std::int32_t>(v);
@@ -90,12 +92,12 @@ __device__ __forceinline__ void sweep_from_memory(const Update& method, const Pi
 
 /// Evaluates the block's vertices. All threads of the block call it; what they did counts the vertices of the whole
 /// batch as those of the grid's first thread.
-template <bool marks, class Update, class T, class Slot>
+template <bool marks, class Update, class T, class Rings>
 __device__ __forceinline__ ThreadTally<T> sweep_by_blocks(const Update& method, const Pieces& pieces,
-                                                          const SweepData<T, Slot>& data) {
+                                                          const SweepData<T, Rings>& data) {
   ThreadTally<T> tally;
-  if constexpr (has_register_update<Update, T>) {
-    __shared__ std::int32_t left_over[batch_threads<Update, T> / 32][enough_left_over + 32];
+  if constexpr (updates_in_registers<Update, T, Rings>) {
+    __shared__ std::int32_t left_over[batch_threads<Update, T, Rings> / 32][enough_left_over + 32];
     sweep_pieces<marks>(method, pieces, data, left_over[threadIdx.x / 32], tally);
   } else {
     sweep_from_memory<marks>(method, pieces, data, tally);
@@ -113,11 +115,11 @@ struct BatchLaunch {
 };
 
 /// That of the vertices begin .. end on a device of so many multiprocessors.
-template <class Update, class T>
+template <class Update, class T, class Rings>
 BatchLaunch launch_of_batch(std::int32_t begin, std::int32_t end, int multiprocessors) {
-  const unsigned blocks = blocks_for(end - begin, batch_threads<Update, T>);
-  if constexpr (has_register_update<Update, T>) {
-    const auto most = static_cast<unsigned>(multiprocessors * blocks_at_once<Update, T>);
+  const unsigned blocks = blocks_for(end - begin, batch_threads<Update, T, Rings>);
+  if constexpr (updates_in_registers<Update, T, Rings>) {
+    const auto most = static_cast<unsigned>(multiprocessors * blocks_at_once<Update, T, Rings>);
     return {std::min(blocks, most), {begin, end, blocks < (most << longest_run_bits) ? 0 : longest_run_bits}};
   } else {
     return {blocks, {begin, end, 0}};

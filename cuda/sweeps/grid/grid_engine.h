@@ -17,15 +17,16 @@
 
 namespace trismooth::cuda {
 
-/// Sweeps by the whole grid over the whole mesh: positions (twice for Form A), rings and marks.
-template <class T, Form form>
+/// Sweeps by the whole grid over the whole mesh: positions (twice for Form A), rings and marks. `Rings`:
+/// GridRings<form> or MixedRings<form>.
+template <class T, Form form, class Rings>
 class GridEngine {
  public:
   using Points = PointArray<T>;
   /// Both buffers stay where they are, so what comes after the sweeps can be queued before they are done.
   static constexpr bool may_be_followed = true;
 
-  GridEngine(Context& context, const VertexOrder& order, GridRings<form> rings, const SmoothingOptions& options)
+  GridEngine(Context& context, const VertexOrder& order, Rings rings, const SmoothingOptions& options)
       : context_(&context),
         method_(options.method),
         batches_(order.batches),
@@ -122,11 +123,11 @@ class GridEngine {
   Context* context_;
   Method method_;
   std::vector<std::int32_t> batches_;
-  GridRings<form> rings_;
+  Rings rings_;
   DeviceTargets<T> targets_;
   DeviceBuffer<PointRecord<T>> points_[buffers];
   DeviceBuffer<std::uint32_t> marks_[buffers];
-  GridMesh<T, typename GridRings<form>::Slot> mesh_{};
+  GridMesh<T, typename Rings::View> mesh_{};
   std::int32_t largest_batch_ = 0;
   DeviceBuffer<unsigned long long> barriers_;
 };

@@ -13,9 +13,9 @@ namespace trismooth::cuda {
 
 /// Updates the marked vertices of one batch that this warp, of a block of so many threads, looks after. `list` is its
 /// own: of words_at_a_time * 32 numbers.
-template <int threads, class Update, class T, class Slot>
+template <int threads, class Update, class T, class Rings>
 __device__ void sweep_marked(const Update& method, std::uint32_t* marks, bool all, std::int32_t begin, std::int32_t end,
-                             const SweepData<T, Slot>& data, std::int32_t* list, ThreadTally<T>& tally) {
+                             const SweepData<T, Rings>& data, std::int32_t* list, ThreadTally<T>& tally) {
   // The words of a warp are far apart: what changes is often near to each other.
   const std::int64_t warps = static_cast<std::int64_t>(gridDim.x) * (threads / 32);
   const std::int64_t warp = thread_index() / 32;
@@ -26,9 +26,10 @@ __device__ void sweep_marked(const Update& method, std::uint32_t* marks, bool al
         list_marked(marks, all, lane < words_at_a_time ? base + lane * warps + warp : beyond, begin, end, list);
     tally.evaluated += lane == 0 ? static_cast<unsigned>(listed) : 0;
     int decided = 0;
-    if (!has_register_update<Update, T> || listed > few_for_teams) {
+    constexpr bool has_teams = updates_in_registers<Update, T, Rings>;
+    if (!has_teams || listed > few_for_teams) {
       int left_over = 0;
-      for (; listed - decided > (has_register_update<Update, T> ? few_for_teams : 0); decided += 32) {
+      for (; listed - decided > (has_teams ? few_for_teams : 0); decided += 32) {
         const int i = decided + lane;
         const std::int32_t v = i < listed ? list[i] : 0;
         const bool left = visit<true>(method, v, fetch_record(data.rings, v), i < listed, data, tally);

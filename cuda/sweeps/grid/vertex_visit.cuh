@@ -7,16 +7,28 @@
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/primitives/vertex_marks.cuh"
 #include "trismooth/cuda/sweeps/thread_tally.cuh"
+#include "trismooth/cuda/topology/rings.h"
 #include "trismooth/cuda/update/ring_in_memory.cuh"
 #include "trismooth/cuda/update/team_update.cuh"
 #include "trismooth/cuda/update/vertex_update.cuh"
 
 namespace trismooth::cuda {
 
-/// What a sweep reads and writes.
-template <class T, class Slot>
+/// Rings in records: those of triangles.
+template <class Rings>
+concept RecordedRings = requires(const Rings& rings) {
+  rings.records;
+};
+
+/// Whether vertices with such rings are updated in registers, by methods that have an update there. Others read their
+/// rings from memory.
+template <class Update, class T, class Rings>
+inline constexpr bool updates_in_registers = has_register_update<Update, T>&& RecordedRings<Rings>;
+
+/// What a sweep reads and writes. `Rings`: SlottedRingsView or MixedRingsView.
+template <class T, class Rings>
 struct SweepData {
-  SlottedRingsView<Slot> rings;
+  Rings rings;
   PointArray<T> from;
   PointArray<T> to;      ///< in Form B `from`
   std::uint32_t* marks;  ///< for the next sweep (Form A), or for those to come (Form B)
@@ -26,8 +38,8 @@ struct SweepData {
 };
 
 /// Marks a vertex for the next sweep unless it is fixed.
-template <class T, class Slot>
-__device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, Slot>& data) {
+template <class T, class Rings>
+__device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, Rings>& data) {
   if (v < data.rings.size) {
     mark(data.marks, v);
   }
@@ -47,9 +59,19 @@ __device__ __forceinline__ RingRecord<Slot> fetch_record(const SlottedRingsView<
   return record;
 }
 
+/// What stands for a record where there are none.
+struct RingSize {
+  std::int32_t size;
+
+  __device__ std::int32_t ring_size() const { return size; }
+};
+__device__ __forceinline__ RingSize fetch_record(const MixedRingsView& rings, std::int32_t v) {
+  return {rings.ring_size(v)};
+}
+
 /// Writes where an evaluated vertex is.
-template <class T, class Slot>
-__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, Slot>& data) {
+template <class T, class Rings>
+__device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, const SweepData<T, Rings>& data) {
   if (data.differs != nullptr && !(data.to.load(v) == move.position)) {
     *data.differs = 1;
   }
@@ -57,37 +79,34 @@ __device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, cons
 }
 
 /// The update of a vertex by one thread, its ring read from memory: for rings of any size.
-template <class Update, class T, class Slot>
+template <class Update, class T, class Rings>
 __device__ __noinline__ VertexMove<T> update_from_memory(Update method, std::int32_t v, Point2<T> position,
-                                                         PointArray<T> points, SlottedRingsView<Slot> rings) {
+                                                         PointArray<T> points, Rings rings) {
   return update_over(method, v, position, ring_in_memory(points, rings, v));
 }
 
 /// Writes where an evaluated vertex is, counts its move and marks what it may move.
-template <bool marks, class T, class Slot>
+template <bool marks, class T, class Rings>
 __device__ __forceinline__ void settle_and_mark(std::int32_t v, Point2<T> position, int size,
-                                                const VertexMove<T>& result, const SweepData<T, Slot>& data,
+                                                const VertexMove<T>& result, const SweepData<T, Rings>& data,
                                                 ThreadTally<T>& tally) {
   settle(v, result.move, data);
   if (result.move.moved) {
     add_move(tally, length_of_move(position, result.move.position, size, result.squares), data.tolerance);
     if constexpr (marks) {
       mark(data.marks, v);
-      const SlottedRing<Slot> numbers = data.rings.ring(v);
-      for (int i = 0; i < size; ++i) {
-        mark_if_free(numbers[i], data);
-      }
+      for_vertices_around(data.rings.ring(v), size, [&](std::int32_t other) { mark_if_free(other, data); });
     }
   }
 }
 
 /// Evaluates one vertex a team, whose threads all call it with the same arguments; all threads of the warp call it.
 /// Those that are not `active` do nothing. Exact for every ring.
-template <bool marks, class Update, class T, class Slot>
+template <bool marks, class Update, class T, class Rings>
 __device__ __forceinline__ void visit_by_team(const Update& method, std::int32_t v, bool active,
-                                              const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
+                                              const SweepData<T, Rings>& data, ThreadTally<T>& tally) {
   const Point2<T> position = data.from.load(v);
-  const SlottedRing<Slot> numbers = data.rings.ring(v);
+  const auto numbers = data.rings.ring(v);
   const int size = active ? data.rings.ring_size(v) : 0;
   const VertexMove<T> result = evaluate_by_team<Update>(
       position, size, [&](int i) { return data.from.load(numbers[i]); },
@@ -113,15 +132,15 @@ __device__ __forceinline__ void visit_by_team(const Update& method, std::int32_t
 
 /// Evaluates one vertex a thread. All threads of the warp call it; those that are not `active` do nothing. True for a
 /// vertex that is left to visit_by_team(). A vertex that is not evaluated is at the same place in both buffers: a move
-/// marks the vertex itself for the next sweep.
-template <bool marks, class Update, class T, class Slot>
-__device__ __forceinline__ bool visit(const Update& method, std::int32_t v, const RingRecord<Slot>& record, bool active,
-                                      const SweepData<T, Slot>& data, ThreadTally<T>& tally) {
+/// marks the vertex itself for the next sweep. `record`: that of fetch_record().
+template <bool marks, class Update, class T, class Rings, class Record>
+__device__ __forceinline__ bool visit(const Update& method, std::int32_t v, const Record& record, bool active,
+                                      const SweepData<T, Rings>& data, ThreadTally<T>& tally) {
   // Asked for first: it arrives together with the ring.
   const Point2<T> position = active ? data.from.load(v) : Point2<T>{};
   VertexMove<T> result;
   int size = 0;
-  if constexpr (has_register_update<Update, T>) {
+  if constexpr (updates_in_registers<Update, T, Rings>) {
     RegisterRing<T, largest_register_ring> ring;
     fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
     size = ring.size;
@@ -143,10 +162,10 @@ __device__ __forceinline__ bool visit(const Update& method, std::int32_t v, cons
 }
 
 /// Evaluates `count` vertices by the teams of a warp: vertex(i) is the i-th.
-template <bool marks, class Update, class T, class Slot, class Vertex>
-__device__ __forceinline__ void visit_by_teams(const Update& method, int count, const SweepData<T, Slot>& data,
+template <bool marks, class Update, class T, class Rings, class Vertex>
+__device__ __forceinline__ void visit_by_teams(const Update& method, int count, const SweepData<T, Rings>& data,
                                                ThreadTally<T>& tally, const Vertex& vertex) {
-  if constexpr (has_register_update<Update, T>) {
+  if constexpr (updates_in_registers<Update, T, Rings>) {
     for (int base = 0; base < count; base += teams) {
       const int i = base + static_cast<int>(threadIdx.x % 32) / team_size;
       visit_by_team<marks>(method, vertex(i < count ? i : 0), i < count, data, tally);
