@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import trismooth
-from conftest import grid
+from conftest import grid, mixed_mesh
 from trismooth._constraints import Constraints
 
 pytestmark = pytest.mark.skipif(
@@ -447,6 +447,16 @@ def test_host_arrays_on_the_cuda_backend_have_the_same_bits():
     result = trismooth.smooth(points, triangles, backend="cuda")
     assert result.backend == "cuda"
     np.testing.assert_array_equal(result.points, host(points, triangles))
+
+
+@pytest.mark.parametrize("method", ["smart", "mean-ratio"])
+def test_quadrilaterals_of_host_arrays_have_the_same_bits_on_the_cuda_backend(method):
+    points, elements = mixed_mesh()
+    result = trismooth.smooth(points, elements, backend="cuda", method=method)
+    assert result.backend == "cuda"
+    np.testing.assert_array_equal(result.points, trismooth.smooth(points, elements, backend="cpu", method=method).points)
+    with pytest.raises(ValueError, match="several devices smooth triangles alone"):
+        trismooth.smooth(points, elements, devices=[0, 0])
 
 
 @pytest.mark.parametrize("devices", [0, [0], [0, 0], (0, 0, 0)])

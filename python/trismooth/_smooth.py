@@ -55,7 +55,7 @@ def smooth(
         mesh itself, and ``regions`` and ``fixed`` may name arrays or sets of the mesh.
     triangles : array of integers, shape (M, 3), (M, 4) or (M, 6)
         Vertex numbers from 0, in either direction. With four, quadrilaterals are among them: the corners in turn, the
-        last of a triangle is -1. They are smoothed on the CPU, and neither untangled nor slid along lines. Six are a
+        last of a triangle is -1; of arrays of the host alone. They are neither untangled nor slid along lines. Six are a
         quadratic triangle: the corners, then the middles of the sides 01, 12 and 20, which follow the ends of their
         sides. One that is listed again, in whatever order, counts
         and is smoothed once; of arrays on a CUDA device list none again, for there it is not looked for.

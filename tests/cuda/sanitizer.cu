@@ -34,6 +34,7 @@
 #include "trismooth/smoothing/rings/mesh_rings.h"
 #include "trismooth/smoothing/smooth.h"
 
+#include "support/mixed_meshes.h"
 #include "support/test_meshes.h"
 
 namespace {
@@ -108,14 +109,21 @@ int run(const std::string& tool) {
 
 constexpr std::int64_t most_sweeps = 4;
 
-/// All executions that this program has, on one mesh, against the CPU.
-void compare_executions(const test_meshes::Mesh& mesh) {
-  const auto triangles = mesh.indices();
-  std::vector<std::pair<Method, TargetShape>> ways{{Method::mean_ratio, TargetShape::input}};
+using Ways = std::vector<std::pair<Method, TargetShape>>;
+
+/// Every method, and what the mean-ratio method may aim at.
+Ways every_way() {
+  Ways ways{{Method::mean_ratio, TargetShape::input}};
   for (const Method method : values_of<Method>()) {
     ways.emplace_back(method, TargetShape::uniform);
   }
-  for (const auto& [method, target] : ways) {
+  return ways;
+}
+
+/// All executions that this program has, on one mesh, against the CPU.
+void compare_executions(const test_meshes::Mesh& mesh) {
+  const auto triangles = mesh.indices();
+  for (const auto& [method, target] : every_way()) {
     for (const Form form : {Form::swap, Form::in_place}) {
       for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
         SmoothingOptions options;
@@ -270,6 +278,37 @@ void compare_constraints() {
          "the guard takes back as many vertices as the CPU's");
 }
 
+/// Meshes with quadrilaterals: sweeps over all vertices and over marked ones, with and without the smallest shape.
+void compare_quadrilaterals() {
+  const mixed_meshes::MixedMesh mesh(40, 30, 0.45, 3);
+  std::int64_t reverted = 0;
+  for (const auto& [method, target] : every_way()) {
+    for (const Form form : {Form::swap, Form::in_place}) {
+      for (const Precision precision : {Precision::single_precision, Precision::double_precision}) {
+        for (const Evaluation evaluation : {Evaluation::changed, Evaluation::all}) {
+          SmoothingOptions options;
+          options.method = method;
+          options.mean_ratio.target = target;
+          options.form = form;
+          options.precision = precision;
+          options.evaluation = evaluation;
+          options.record_min_shape = evaluation == Evaluation::changed;
+          options.max_sweeps = most_sweeps;
+          std::vector<double> expected = mesh.xy();
+          smooth(xy_points(expected), mesh.elements, {}, options);
+          options.backend = &cuda::backend();
+          std::vector<double> xy = mesh.xy();
+          reverted += smooth(xy_points(xy), mesh.elements, {}, options).reverted_vertices;
+          expect(same_bits(xy, expected), "quadrilaterals by " + std::string(to_string(method)) + " form " +
+                                              std::string(to_string(form)) + " " + std::string(to_string(precision)) +
+                                              " have other bits than the CPU");
+        }
+      }
+    }
+  }
+  expect(reverted > 0, "the guard takes quadrilaterals back");
+}
+
 int run_all() {
   for (const std::int32_t side : {32, 100}) {
     const test_meshes::Mesh mesh = test_meshes::jittered_grid(side, side, 0.45, 3);
@@ -283,6 +322,7 @@ int run_all() {
     std::printf("%d vertices: done\n", side * side);
   }
   compare_constraints();
+  compare_quadrilaterals();
   std::printf("%d failures\n", failures);
   return failures == 0 ? 0 : 1;
 }

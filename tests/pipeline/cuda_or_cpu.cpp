@@ -17,6 +17,7 @@
 
 #include "catch.h"
 #include "support/fake_backend.h"
+#include "support/mixed_meshes.h"
 #include "support/test_meshes.h"
 
 namespace trismooth::cuda_or_cpu_test {
@@ -122,6 +123,35 @@ TEST_CASE("a device that failed once is not asked again by the same plan") {
     CHECK(xy == smooth_with(nullptr).xy);
   }
   CHECK(cuda.smoothed == 1);
+}
+
+TEST_CASE("meshes with quadrilaterals go to CUDA by their size as well, and to the CPU where it fails") {
+  const mixed_meshes::MixedMesh mesh(11, 11, 0.3, 3);
+  SmoothingOptions options;
+  options.target_quality = 0.99;  // so that elements are needed beside the rings
+  options.max_sweeps = 20;
+  std::vector<double> expected = mesh.xy();
+  smooth(xy_points(expected), mesh.elements, options);
+  const auto smoothed = [&](const FakeBackend& cuda, std::int64_t large) {
+    const CudaOrCpu automatic(support(cuda), trismooth::cpu_backend(), large);
+    options.backend = &automatic;
+    Smoothed found{{}, mesh.xy()};
+    found.result = smooth(xy_points(found.xy), mesh.elements, options);
+    CHECK(found.xy == expected);
+    return found.result;
+  };
+  const FakeBackend cuda;
+  CHECK(smoothed(cuda, free_vertices + 1).backend == "cpu");
+  CHECK(cuda.prepared == 0);
+  const SmoothingResult by_cuda = smoothed(cuda, free_vertices);
+  CHECK(by_cuda.backend == "cuda");
+  CHECK(by_cuda.backend_note.empty());
+  for (const Failure failure : {Failure::prepare, Failure::smooth}) {
+    const FakeBackend failing(failure);
+    const SmoothingResult fallen_back = smoothed(failing, 1);
+    CHECK(fallen_back.backend == "cpu");
+    CHECK(fallen_back.backend_note == "CUDA failed: cudaErrorMemoryAllocation (out of memory) from a test");
+  }
 }
 
 TEST_CASE("auto has rings found by the device where the mesh is large enough and the device can") {

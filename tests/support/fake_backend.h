@@ -59,6 +59,15 @@ class FakeBackend final : public trismooth::Backend {
                                       trismooth::cpu_backend().prepare(std::move(mesh), triangles, local, on_cpu));
   }
 
+  std::unique_ptr<trismooth::PreparedSmoother> prepare_mixed(
+      trismooth::MeshRings mesh, std::span<const trismooth::MixedElement> elements,
+      std::span<const trismooth::Point2<double>> local, const trismooth::SmoothingOptions& options) const override {
+    ++prepared;
+    fail_at(Failure::prepare, local.size());
+    return std::make_unique<Smoother>(
+        *this, trismooth::cpu_backend().prepare_mixed(std::move(mesh), elements, local, options));
+  }
+
   std::optional<trismooth::MeshRings> find_rings(std::span<const trismooth::Point2<double>> points,
                                                  std::span<const trismooth::Triangle> triangles,
                                                  const trismooth::Constraints& constraints,
@@ -90,7 +99,7 @@ class FakeBackend final : public trismooth::Backend {
   /// From now on it fails there.
   void fail_next_at(Failure failure) { failure_ = failure; }
 
-  mutable std::atomic<int> prepared = 0;               ///< calls of prepare() and prepare_mesh()
+  mutable std::atomic<int> prepared = 0;               ///< calls of prepare(), prepare_mixed() and prepare_mesh()
   mutable std::atomic<int> smoothed = 0;               ///< of smooth()
   mutable std::atomic<int> rings_found = 0;            ///< of find_rings()
   mutable std::atomic<std::int64_t> started_for = -1;  ///< vertices; -1: it was not started
