@@ -25,7 +25,8 @@ constexpr std::uint64_t smallest_share_a = 16;
 constexpr std::uint64_t smallest_share_b = 6;
 
 /// Closes a sweep that evaluated every vertex. One thread calls it when all blocks are done.
-__device__ void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopState* state, const SweepSums& sums) {
+__device__ inline void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopState* state,
+                                 const SweepSums& sums) {
   const volatile SweepSums& complete = sums;
   SweepSums found{};
   found.moved = complete.moved;
@@ -41,7 +42,7 @@ __device__ void end_sweep(const LoopRules& rules, std::int32_t free_count, LoopS
 }
 
 /// Whether a launch that marks its moves, or does not, is the one that is to make the next sweep.
-__device__ bool is_due(const LoopState& state, bool marks, const LoopRules& rules) {
+__device__ inline bool is_due(const LoopState& state, bool marks, const LoopRules& rules) {
   return state.stop == LoopState::running && state.evaluates_all != 0 && (state.marks != 0) == marks &&
          state.sweeps < rules.sweeps;
 }
