@@ -24,7 +24,7 @@ struct SweepSums {
 
 /// How the sweeps of one run go on the device. In Form A (Jacobi) every move of a sweep is computed from the positions
 /// before the sweep, out of one buffer into another. In Form B (coloured Gauss-Seidel) vertices move in place, colour
-/// by colour; no two vertices of a colour share an edge, so that their order does not matter.
+/// by colour; no two vertices of a colour share an element, so that their order does not matter.
 struct LoopRules {
   bool swaps;                   ///< Form A, whose buffers swap; else Form B
   bool evaluates_all;           ///< every free vertex in every sweep
