@@ -280,6 +280,8 @@ class CudaBackend final : public Backend {
     return on_device(std::make_unique<RingSmoother>(mesh, triangles, local, options));
   }
 
+  bool takes_quadrilaterals() const override { return true; }
+
   std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
                                                   std::span<const Point2<double>> local,
                                                   const SmoothingOptions& options) const override {

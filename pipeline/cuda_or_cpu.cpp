@@ -25,17 +25,7 @@ std::string failure_note(const DeviceError& error) {
   return "CUDA failed: " + (what.starts_with(prefix) ? what.substr(prefix.size()) : what);
 }
 
-/// What a backend makes ready of either kind of meshes.
-std::unique_ptr<PreparedSmoother> prepared(const Backend& backend, MeshRings mesh, std::span<const Triangle> triangles,
-                                           std::span<const Point2<double>> local, const SmoothingOptions& options) {
-  return backend.prepare(std::move(mesh), triangles, local, options);
-}
-std::unique_ptr<PreparedSmoother> prepared(const Backend& backend, MeshRings mesh,
-                                           std::span<const MixedElement> elements,
-                                           std::span<const Point2<double>> local, const SmoothingOptions& options) {
-  return backend.prepare_mixed(std::move(mesh), elements, local, options);
-}
-/// For a caller who keeps the mesh.
+/// prepared() for a caller who keeps the mesh.
 std::unique_ptr<PreparedSmoother> prepared_kept(const Backend& backend, const MeshRings& mesh,
                                                 std::span<const Triangle> triangles,
                                                 std::span<const Point2<double>> local,

@@ -20,9 +20,8 @@ const Backend& backend_of(const SmoothingOptions& options) {
   return backend;
 }
 
-std::unique_ptr<PreparedSmoother> prepared(MeshRings mesh, const ElementList& elements,
+std::unique_ptr<PreparedSmoother> prepared(const Backend& backend, MeshRings mesh, const ElementList& elements,
                                            std::span<const Point2<double>> local, const SmoothingOptions& options) {
-  const Backend& backend = backend_of(options);
   return elements.visit([&]<class Corners>(std::span<const Corners> listed) {
     if constexpr (std::same_as<Corners, Triangle>) {
       return backend.prepare(std::move(mesh), listed, local, options);

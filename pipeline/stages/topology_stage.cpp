@@ -143,7 +143,7 @@ Quads settled_quads(RunState& run) {
       : options.halfedge_stage ? "the program's own stage has triangles alone, as halfedges"
       : run.smoothing.topology == Topology::halfedge
           ? "halfedges are those of triangles alone; without --topology halfedge they are smoothed"
-      : !backend.takes_quadrilaterals() ? "backend '" + backend.name() + "' smooths triangles alone"
+      : !backend.takes_quadrilaterals() ? "backend '" + backend.name() + "' smooths triangles alone here"
                                         : std::string();
   if (options.quads == Quads::hold || reason.empty()) {
     return options.quads;
