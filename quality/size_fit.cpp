@@ -41,9 +41,9 @@ double asked_area(const MixedElement& corners, std::span<const double> inverse_a
 template <class Corners>
 SizeFit fit_of(const ElementView<Corners>& view, std::span<const double> inverse_areas,
                std::span<const std::uint8_t> held, int threads) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double not_compared = std::numeric_limits<double>::quiet_NaN();
   Workers workers(threads);
-  std::vector<double> ratios(view.elements.size(), nan);  // NaN: not compared
+  std::vector<double> ratios(view.elements.size(), not_compared);
   const auto sums_of = [&](std::int64_t e) {
     return with_kind(canonical_corners(view, static_cast<std::size_t>(e)), [&](const auto& corners) -> FitSums {
       if (all_are_fixed(corners, held)) {
@@ -67,7 +67,7 @@ SizeFit fit_of(const ElementView<Corners>& view, std::span<const double> inverse
   };
   const double squares = ordered_sum(std::ssize(ratios), square_of, workers);
   return {sums.triangles, sums.left_out,
-          sums.triangles > 0 ? std::sqrt(squares / static_cast<double>(sums.triangles)) : nan};
+          sums.triangles > 0 ? std::sqrt(squares / static_cast<double>(sums.triangles)) : not_compared};
 }
 
 }  // namespace

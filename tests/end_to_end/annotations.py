@@ -54,12 +54,12 @@ class Annotations(tool.ToolTest):
                                  [int(v in fixed) for v in range(len(before.points))])
                 for p, q, d in zip(before.points, after.points, after.point_arrays[PREFIX + "displacement"]):
                     self.assertEqual(d, tuple(b - a for a, b in zip(p, q)))
-                triangles = {cell for cell, _ in after.triangles()}
+                elements = {cell for cell, _ in after.elements()}
                 for metric in ("shape", "min_angle"):
                     for stage, suffix in (("before", "_before"), ("after", "")):
                         rows = after.cell_arrays[PREFIX + metric + suffix]
-                        self.assertEqual({value for cell, (value,) in enumerate(rows) if cell not in triangles}, {0})
-                        self.assertAlmostEqual(min(rows[cell][0] for cell in triangles),
+                        self.assertEqual({value for cell, (value,) in enumerate(rows) if cell not in elements}, {0})
+                        self.assertAlmostEqual(min(rows[cell][0] for cell in elements),
                                                report[stage]["metrics"][metric]["min"], places=12)
 
     def test_quality_writes_the_mesh_as_it_is_with_what_was_found(self):

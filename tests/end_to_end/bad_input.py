@@ -40,7 +40,7 @@ def rejected_files():
     return [
         ("garbage.off", b"\x89PNG" + random.Random(7).randbytes(4096), ":1: is not an OFF file"),
         ("not_planar.off", replaced(sample_meshes.off(grid()), b"\n3 3 0\n", b"\n3 3 0.3\n"), "not planar"),
-        ("quads_only.off", b"OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "1 cell but no triangle"),
+        ("pentagon.off", b"OFF\n5 1 0\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4\n", "1 cell but no triangle"),
         ("moebius.off", ("OFF\n5 5 0\n" + "".join(f"{x} {x * x} 0\n" for x in range(5)) +
                          "".join(f"3 {i} {(i + 1) % 5} {(i + 2) % 5}\n" for i in range(5))).encode(), "orient"),
         ("relative.obj", sample_meshes.obj(grid()) + b"f -1 -2 -17\n", "'-17'"),

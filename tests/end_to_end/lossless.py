@@ -48,18 +48,19 @@ class SmoothedFile(tool.ToolTest):
         self.assertEqual(report["input"]["free_vertices"], len(before.points) - len(fixed))
 
     def assert_quality(self, before, after, report):
-        triangles = [t for _, t in before.triangles()]
+        elements = [corners for _, corners in before.elements()]
         points = planar_geometry.flat(before.points)
-        orientation = planar_geometry.Orientation(triangles, points)
+        orientation = planar_geometry.Orientation(elements, points)
         old = orientation.shapes(points)
         new = orientation.shapes(planar_geometry.flat(after.points))
         inverted = [sum(shape < 0 for shape in shapes) for shapes in (old, new)]
-        self.assertLessEqual(inverted[1], inverted[0], "inverted triangles")
+        self.assertLessEqual(inverted[1], inverted[0], "inverted elements")
         rounding = 1e-12
         self.assertGreaterEqual(min(new), min(old) - rounding, "smallest shape")
         for stage, count, shapes in (("before", inverted[0], old), ("after", inverted[1], new)):
             self.assertEqual(report[stage]["inverted"], count)
-            self.assertEqual(report[stage]["triangles"], len(triangles))
+            self.assertEqual(report[stage]["triangles"], sum(len(corners) == 3 for corners in elements))
+            self.assertEqual(report[stage]["quadrilaterals"], sum(len(corners) == 4 for corners in elements))
             self.assertAlmostEqual(report[stage]["metrics"]["shape"]["min"], min(shapes), delta=1e-9)
             self.assertAlmostEqual(report[stage]["metrics"]["shape"]["mean"], sum(shapes) / len(shapes), delta=1e-9)
         self.assertEqual(report["input"]["reoriented_triangles"], orientation.reoriented)

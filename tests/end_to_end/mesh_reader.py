@@ -30,10 +30,10 @@ class Mesh:
         self.point_arrays = {}
         self.vtk_file = None
 
-    def triangles(self):
-        """(cell number, vertices) of each proper triangle."""
+    def elements(self):
+        """(cell number, vertices) of each proper triangle and quadrilateral."""
         return [(i, vertices) for i, (kind, vertices) in enumerate(self.cells)
-                if kind in (TRIANGLE, POLYGON) and len(vertices) == 3 and len(set(vertices)) == 3]
+                if kind in (TRIANGLE, QUAD, POLYGON) and len(vertices) in (3, 4) and len(set(vertices)) == len(vertices)]
 
 
 def polygon_type(count):

@@ -10,17 +10,22 @@ REGION_NAMES = ("region", "mat_id", "material", "materialids", "cellentityids", 
                 "gmsh:geometrical", "attribute", "group")
 
 
-def edges_of(triangles):
-    """{(low, high): [triangle number]}."""
+def sides(element):
+    """(corner, next corner), in turn."""
+    return list(zip(element, (*element[1:], element[0])))
+
+
+def edges_of(elements):
+    """{(low, high): [element number]}."""
     edges = {}
-    for number, (a, b, c) in enumerate(triangles):
-        for edge in ((a, b), (b, c), (c, a)):
+    for number, element in enumerate(elements):
+        for edge in sides(element):
             edges.setdefault((min(edge), max(edge)), []).append(number)
     return edges
 
 
 def region_values(mesh, cells):
-    """The region of each triangle, by all arrays that name regions; None where there is none."""
+    """The region of each element, by all arrays that name regions; None where there is none."""
     arrays = [rows for name, rows in mesh.cell_arrays.items()
               if name.lower() in REGION_NAMES and rows and len(rows[0]) == 1
               and (len(cells) <= 1 or len({rows[cell] for cell in cells}) < len(cells))]
@@ -28,7 +33,7 @@ def region_values(mesh, cells):
 
 
 def interface_vertices(mesh):
-    numbered = mesh.triangles()
+    numbered = mesh.elements()
     regions = region_values(mesh, [cell for cell, _ in numbered])
     if regions is None:
         return set()
@@ -37,21 +42,21 @@ def interface_vertices(mesh):
 
 
 def other_cell_vertices(mesh):
-    proper = {cell for cell, _ in mesh.triangles()}
+    proper = {cell for cell, _ in mesh.elements()}
     return {v for cell, (_, vertices) in enumerate(mesh.cells) if cell not in proper for v in vertices}
 
 
 def fixed_vertices(mesh):
     """All vertices that must not move."""
-    triangles = [t for _, t in mesh.triangles()]
-    fixed = set(range(len(mesh.points))) - {v for t in triangles for v in t}
-    for edge, users in edges_of(triangles).items():
+    elements = [corners for _, corners in mesh.elements()]
+    fixed = set(range(len(mesh.points))) - {v for corners in elements for v in corners}
+    for edge, users in edges_of(elements).items():
         if len(users) != 2:
             fixed.update(edge)
-    # An interior vertex has one closed fan: walking over its triangles' opposite edges meets them all.
+    # An interior vertex has one closed fan: walking over its neighbours, two in each of its elements, meets them all.
     links = {}
-    for a, b, c in triangles:
-        for v, p, q in ((a, b, c), (b, c, a), (c, a, b)):
+    for element in elements:
+        for (p, v), (_, q) in zip(sides(element), (*sides(element)[1:], sides(element)[0])):
             links.setdefault(v, {}).setdefault(p, []).append(q)
             links[v].setdefault(q, []).append(p)
     for v, link in links.items():
@@ -93,42 +98,55 @@ def cross(points, a, b, c):
     return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
 
 
-def raw_shape(points, a, b, c):
-    (ax, ay), (bx, by), (cx, cy) = points[a], points[b], points[c]
-    lengths = ((bx - ax) ** 2 + (by - ay) ** 2) + ((cx - bx) ** 2 + (cy - by) ** 2) + ((ax - cx) ** 2 + (ay - cy) ** 2)
-    return 2 * math.sqrt(3) * cross(points, a, b, c) / lengths if lengths > 0 else 0.0
+def doubled_area(points, *corners):
+    """Twice the signed area of an element: of the triangles that fan out from its first corner."""
+    return sum(cross(points, corners[0], b, c) for b, c in zip(corners[1:], corners[2:]))
+
+
+def squared(points, a, b):
+    return (points[b][0] - points[a][0]) ** 2 + (points[b][1] - points[a][1]) ** 2
+
+
+def raw_shape(points, *corners):
+    if len(corners) == 4:
+        # The worst corner, by the two sides that leave it.
+        quotients = []
+        for (before, corner), (_, behind) in zip(sides(corners), (*sides(corners)[1:], sides(corners)[0])):
+            lengths = squared(points, corner, behind) + squared(points, corner, before)
+            quotients.append(2 * cross(points, corner, behind, before) / lengths if lengths > 0 else 0.0)
+        return min(quotients) if doubled_area(points, *corners) >= 0 else -min(-q for q in quotients)
+    lengths = sum(squared(points, a, b) for a, b in sides(corners))
+    return 2 * math.sqrt(3) * cross(points, *corners) / lengths if lengths > 0 else 0.0
 
 
 class Orientation:
-    """Each triangle's sign in the consistent mesh, fixed by the input; `reoriented` counts those listed against it."""
+    """Each element's sign in the consistent mesh, fixed by the input; `reoriented` counts those listed against it."""
 
-    def __init__(self, triangles, points):
-        self.triangles = triangles
-        edges = edges_of(triangles)
-        flips = [None] * len(triangles)
-        self.signs = [0] * len(triangles)
+    def __init__(self, elements, points):
+        self.elements = elements
+        edges = edges_of(elements)
+        flips = [None] * len(elements)
+        self.signs = [0] * len(elements)
         self.components = 0
         self.reoriented = 0
-        for start in range(len(triangles)):
+        for start in range(len(elements)):
             if flips[start] is not None:
                 continue
             self.components += 1
             flips[start] = 1
             component = [start]
             for t in component:  # grows while it is walked over
-                a, b, c = triangles[t]
-                for p, q in ((a, b), (b, c), (c, a)):
+                for p, q in sides(elements[t]):
                     for other in edges[(min(p, q), max(p, q))]:
                         if other == t or len(edges[(min(p, q), max(p, q))]) != 2 or flips[other] is not None:
                             continue
-                        x, y, z = triangles[other]
-                        same_way = (p, q) in ((x, y), (y, z), (z, x))
+                        same_way = (p, q) in sides(elements[other])
                         flips[other] = -flips[t] if same_way else flips[t]
                         component.append(other)
             self.orient(component, flips, points)
 
     def orient(self, component, flips, points):
-        raw = {t: cross(points, *self.triangles[t]) for t in component}
+        raw = {t: doubled_area(points, *self.elements[t]) for t in component}
         balance = sum((raw[t] * flips[t] > 0) - (raw[t] * flips[t] < 0) for t in component)
         if balance == 0:
             first = min((t for t in component if raw[t] != 0), default=None)
@@ -141,7 +159,7 @@ class Orientation:
         self.reoriented += min(turned, len(component) - turned)
 
     def shapes(self, points):
-        return [sign * raw_shape(points, *t) for sign, t in zip(self.signs, self.triangles)]
+        return [sign * raw_shape(points, *t) for sign, t in zip(self.signs, self.elements)]
 
 
 MASK = (1 << 64) - 1

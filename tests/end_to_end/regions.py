@@ -18,7 +18,7 @@ EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", 
 
 def ends_between(mesh, values):
     """The vertices of edges whose two triangles differ in `values`, which has one for every cell."""
-    numbered = mesh.triangles()
+    numbered = mesh.elements()
     edges = planar_geometry.edges_of([t for _, t in numbered])
     return {v for edge, users in edges.items()
             if len(users) == 2 and values[numbered[users[0]][0]] != values[numbered[users[1]][0]] for v in edge}

@@ -117,7 +117,7 @@ class Reports(tool.ToolTest):
         areas = []
         for mesh in (mesh_reader.read(self.path(name)) for name in ("random.off", "out.off")):
             points = planar_geometry.flat(mesh.points)
-            areas.append([planar_geometry.cross(points, *triangle) for _, triangle in mesh.triangles()])
+            areas.append([planar_geometry.doubled_area(points, *corners) for _, corners in mesh.elements()])
         ratios = sorted(after / before for before, after in zip(*areas))
         self.assertEqual((change["triangles"], change["left_out"]), (len(ratios), 0))
         squares = math.fsum(math.log(ratio) ** 2 for ratio in ratios)

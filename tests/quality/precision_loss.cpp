@@ -69,7 +69,7 @@ TEST_CASE("a triangle whose squares vanish in float32 has collapsed") {
 TEST_CASE("the description says how many of what") {
   const std::string begin = "single precision cannot hold this mesh; rounded to it, ";
   const std::string collapsed = "elements that collapse: 4 of 18";
-  const std::string distorted = "triangles whose shape changes by more than 0.01: 1 of 18";
+  const std::string distorted = "elements whose shape changes by more than 0.01: 1 of 18";
   CHECK(describe(PrecisionLoss{18, 4, 0}) == begin + collapsed);
   CHECK(describe(PrecisionLoss{18, 0, 1}) == begin + distorted);
   CHECK(describe(PrecisionLoss{18, 4, 1}) == begin + collapsed + ", " + distorted);

@@ -322,7 +322,7 @@ class OneFileInRanges(ranks_tool.RanksTest):
         self.refused(written("number.off", [*lines[:300], "0.5 1e999 0", *lines[301:]]), ":301:")
         self.refused(written("more.off", [*lines, "3 0 1 2"]), "end of the file")
         self.refused(written("counts.off", ["OFF", "1000000 10 0", *lines[2:]]), "vertices")
-        self.refused(written("solid.off", ["OFF", "4 1 0", "0 0 0", "1 0 0", "0 1 0", "1 1 0", "4 0 1 2 3"]))
+        self.refused(written("solid.off", ["OFF", "5 1 0", "0 0 0", "1 0 0", "2 1 0", "1 2 0", "0 1 0", "5 0 1 2 3 4"]))
         self.refused(written("empty.off", []))
 
     def test_bad_msh(self):

@@ -103,9 +103,23 @@ class SameAsOneFile(ranks_tool.RanksTest):
                                (1, ["--region-array", "material", "--region-array", "other"]),
                                (3, ["--region-array", "none", "--fixed-ids", "ids.txt"])):
             with self.subTest(options=options, ranks=ranks):
-                whole = self.report("smooth", "merged.vtu", "smooth.vtu", *options)
-                report = self.report_over(ranks, "smooth", "mixed.pvtu", "out.pvtu", *options)
+                whole = self.report("smooth", "merged.vtu", "smooth.vtu", "--quads", "hold", *options)
+                report = self.report_over(ranks, "smooth", "mixed.pvtu", "out.pvtu", "--quads", "hold", *options)
                 self.assertEqual(without_run(report), without_run(whole))
+
+    def test_quadrilaterals_are_smoothed_by_one_rank_to_the_same_bits(self):
+        parts = pieces.cut(self.mixed_mesh(), pieces.stripes(self.mixed_mesh(), 5), 5, global_ids=False)
+        pieces.write_pieces(self.path("mixed.pvtu"), parts)
+        pieces.write_vtu(self.path("merged.vtu"), pieces.merged(parts))
+        whole = self.report("smooth", "merged.vtu", "smooth.vtu", "--method", "mean-ratio")
+        self.assertGreater(whole["input"]["quadrilaterals"], 10)
+        for ranks, name in ((1, "mixed.pvtu"), (2, "mixed.pvtu"), (3, "merged.vtu"), (4, "mixed.pvtu")):
+            with self.subTest(ranks=ranks, name=name):
+                report = self.report_over(ranks, "smooth", name, "out.pvtu", "--method", "mean-ratio")
+                self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
+                self.assertEqual(report["after"]["kinds"], whole["after"]["kinds"])
+                if ranks > 1:
+                    self.assertIn("quadrilaterals are smoothed by one rank alone", report["smoothing"]["backend_note"])
 
     def notes_of(self, ranks, *arguments):
         return [line for line in self.run_over(ranks, *arguments).err.splitlines() if ": note: " in line]
