@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/smoothing/method.h"
+
 namespace trismooth {
 
 class StagedMesh;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/gates.h"
 #include "trismooth/pipeline/halfedge_stage.h"
