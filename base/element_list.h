@@ -23,6 +23,7 @@ class ElementList {
   ElementList(const std::vector<Triangle>& triangles) : triangles_(triangles) {}
   ElementList(const std::vector<MixedElement>& elements) : mixed_(elements), is_mixed_(true) {}
 
+  /// Elements.
   [[nodiscard]] std::size_t size() const { return is_mixed_ ? mixed_.size() : triangles_.size(); }
   [[nodiscard]] bool empty() const { return size() == 0; }
   /// Whether they are listed as Triangle; else quadrilaterals may be among them.
@@ -35,6 +36,7 @@ class ElementList {
                      : std::span<const std::int32_t>(triangles_[element]);
   }
 
+  /// Goes over the elements; gives operator[] of each.
   class Iterator {
    public:
     using iterator_category = std::input_iterator_tag;
@@ -88,10 +90,11 @@ inline std::int32_t previous_corner(std::span<const std::int32_t> corners, std::
 
 /// The elements of one mesh for evaluation, of whichever kinds. All views; the caller owns.
 struct MeshView {
-  std::span<const Point2<double>> points;    ///< as those of ElementView
-  ElementList elements;                      ///< likewise
-  std::span<const std::uint8_t> reversed{};  ///< likewise
-  int exponent = 0;                          ///< likewise
+  std::span<const Point2<double>> points;    ///< in the local frame
+  ElementList elements;                      ///< corners within points, in the order of the file
+  std::span<const std::uint8_t> reversed{};  ///< 1 where the element is listed clockwise relative to the positive
+                                             ///< orientation of its component; empty: none is
+  int exponent = 0;                          ///< of the local frame: lengths in the file are local * 2^exponent
 
   MeshView() = default;
   MeshView(std::span<const Point2<double>> all_points, const ElementList& all_elements,
