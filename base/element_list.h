@@ -16,15 +16,23 @@ namespace trismooth {
 /// them. Code that asks for corners one element after the other takes it as a range of spans of three or four corners;
 /// code that is compiled for each list goes by visit().
 class ElementList {
+  class Iterator;
+
  public:
+  /// None.
   ElementList() = default;
+  /// Triangles.
   ElementList(std::span<const Triangle> triangles) : triangles_(triangles) {}
+  /// Elements of either kind.
   ElementList(std::span<const MixedElement> elements) : mixed_(elements), is_mixed_(true) {}
+  /// Triangles of a vector that stays as it is.
   ElementList(const std::vector<Triangle>& triangles) : triangles_(triangles) {}
+  /// Elements of either kind of a vector that stays as it is.
   ElementList(const std::vector<MixedElement>& elements) : mixed_(elements), is_mixed_(true) {}
 
-  /// Elements.
+  /// How many there are.
   [[nodiscard]] std::size_t size() const { return is_mixed_ ? mixed_.size() : triangles_.size(); }
+  /// Whether there are none.
   [[nodiscard]] bool empty() const { return size() == 0; }
   /// Whether they are listed as Triangle; else quadrilaterals may be among them.
   [[nodiscard]] bool are_triangles() const { return !is_mixed_; }
@@ -35,35 +43,10 @@ class ElementList {
                            .first(static_cast<std::size_t>(corner_count(mixed_[element])))
                      : std::span<const std::int32_t>(triangles_[element]);
   }
-
-  /// Goes over the elements; gives operator[] of each.
-  class Iterator {
-   public:
-    using iterator_category = std::input_iterator_tag;
-    using value_type = std::span<const std::int32_t>;
-    using difference_type = std::ptrdiff_t;
-    using pointer = void;
-    using reference = value_type;
-
-    Iterator(const ElementList& elements, std::size_t element) : elements_(&elements), element_(element) {}
-    std::span<const std::int32_t> operator*() const { return (*elements_)[element_]; }
-    Iterator& operator++() {
-      ++element_;
-      return *this;
-    }
-    Iterator operator++(int) {
-      Iterator before = *this;
-      ++element_;
-      return before;
-    }
-    bool operator==(const Iterator& other) const { return element_ == other.element_; }
-
-   private:
-    const ElementList* elements_;
-    std::size_t element_;
-  };
-  [[nodiscard]] Iterator begin() const { return {*this, 0}; }
-  [[nodiscard]] Iterator end() const { return {*this, size()}; }
+  /// The first one; while the list is there. Gives the corners of each.
+  [[nodiscard]] Iterator begin() const;
+  /// Behind the last one.
+  [[nodiscard]] Iterator end() const;
 
   /// All of them, where they are listed so.
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
@@ -80,10 +63,46 @@ class ElementList {
   bool is_mixed_ = false;
 };
 
-/// The corner behind corner i of an element, and the one before it, in turn.
+/// Goes over a list.
+class ElementList::Iterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = std::span<const std::int32_t>;
+  using difference_type = std::ptrdiff_t;
+  using pointer = void;
+  using reference = value_type;
+
+  /// At that element of the list, or behind its last.
+  Iterator(const ElementList& elements, std::size_t element) : elements_(&elements), element_(element) {}
+  std::span<const std::int32_t> operator*() const { return (*elements_)[element_]; }
+  Iterator& operator++() {
+    ++element_;
+    return *this;
+  }
+  Iterator operator++(int) {
+    Iterator before = *this;
+    ++element_;
+    return before;
+  }
+  bool operator==(const Iterator& other) const { return element_ == other.element_; }
+
+ private:
+  const ElementList* elements_;
+  std::size_t element_;
+};
+
+inline ElementList::Iterator ElementList::begin() const {
+  return {*this, 0};
+}
+inline ElementList::Iterator ElementList::end() const {
+  return {*this, size()};
+}
+
+/// The corner behind corner i of an element, in turn.
 inline std::int32_t next_corner(std::span<const std::int32_t> corners, std::size_t i) {
   return corners[i + 1 < corners.size() ? i + 1 : 0];
 }
+/// The corner before corner i of an element, in turn.
 inline std::int32_t previous_corner(std::span<const std::int32_t> corners, std::size_t i) {
   return corners[i > 0 ? i - 1 : corners.size() - 1];
 }
@@ -96,10 +115,13 @@ struct MeshView {
                                              ///< orientation of its component; empty: none is
   int exponent = 0;                          ///< of the local frame: lengths in the file are local * 2^exponent
 
+  /// No mesh.
   MeshView() = default;
+  /// Elements of either kind over these points, which have room for all their corners.
   MeshView(std::span<const Point2<double>> all_points, const ElementList& all_elements,
            std::span<const std::uint8_t> are_reversed = {}, int frame_exponent = 0)
       : points(all_points), elements(all_elements), reversed(are_reversed), exponent(frame_exponent) {}
+  /// Triangles.
   MeshView(const TriangleView& view)
       : points(view.points), elements(view.elements), reversed(view.reversed), exponent(view.exponent) {}
 
