@@ -141,7 +141,8 @@ template <class Corners>
   }
   const std::string name(element_name<Corners>);
   throw MeshError("the " + name + "s connected with " + name + " " + std::to_string(h / sides) +
-                  " cannot be oriented consistently (a one-sided surface)");
+                  " cannot be oriented consistently (a one-sided surface" +
+                  (sides == 4 ? ", or a quadrilateral whose corners are not listed in turn)" : ")"));
 }
 
 template <class Corners>

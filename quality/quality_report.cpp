@@ -325,6 +325,15 @@ QualityReport report_of(const QualityPart& triangles, const KindPart<Quadrilater
   return report;
 }
 
+QualityReport report_of(const KindQuality& kind) {
+  QualityReport report;
+  (kind.kind == ElementKind::triangle ? report.triangles : report.quadrilaterals) = kind.elements;
+  report.inverted = kind.inverted;
+  report.degenerate = kind.degenerate;
+  report.metrics = kind.metrics;
+  return report;
+}
+
 QualityReport quality_report(const MeshView& view, const QualityOptions& options) {
   if (view.elements.are_triangles()) {
     QualityParts made =

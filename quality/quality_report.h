@@ -70,6 +70,9 @@ struct QualityReport {
   MetricSummary& operator[](Metric metric) { return metrics[static_cast<std::size_t>(metric)]; }
 };
 
+/// The elements of one kind as a report of their own, without a histogram and worst ones.
+[[nodiscard]] QualityReport report_of(const KindQuality& kind);
+
 /// What steers a report.
 struct QualityOptions {
   int threads = 0;       ///< 0: all; 1: this thread alone; most_threads() at most

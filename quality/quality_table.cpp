@@ -50,6 +50,10 @@ std::string rows_of_metrics(const Metrics& metrics, bool has_one_range, const Su
   return columns.text();
 }
 
+std::string kind_alone(const KindQuality& kind) {
+  return std::string(kind.kind == ElementKind::triangle ? "triangles" : "quadrilaterals") + " alone\n";
+}
+
 std::string metrics_text(const QualityReport& report) {
   std::vector<MetricInfo> shown;
   std::ranges::transform(metrics_of(report), std::back_inserter(shown),
@@ -61,7 +65,7 @@ std::string metrics_text(const QualityReport& report) {
     return text;
   }
   for (const KindQuality& of_kind : report.kinds) {
-    text += std::string("\n") + (of_kind.kind == ElementKind::triangle ? "triangles" : "quadrilaterals") + " alone\n" +
+    text += "\n" + kind_alone(of_kind) +
             rows_of_metrics(
                 all_metrics(of_kind.kind),
                 true, [&](const MetricInfo& metric) -> const auto& { return of_kind[metric.metric]; });
@@ -80,7 +84,7 @@ std::string change_text(double before, double after) {
   return text.size() <= number_columns - 1 ? text : sign + scientific_digits(change, 0);
 }
 
-std::string metrics_text(const QualityReport& before, const QualityReport& after) {
+std::string table_of_both(const QualityReport& before, const QualityReport& after) {
   TextColumns columns({{0, Align::left}, {1, Align::left}, {2}, {2}, {2}, {2}, {2}, {2, Align::left}});
   columns.add_row({"metric", "", "min", "mean", "max", "ok %", "worst by"});
   for (const MetricInfo* const shown : metrics_of(after)) {
@@ -102,7 +106,15 @@ std::string metrics_text(const QualityReport& before, const QualityReport& after
     last.emplace_back(verdict(metric.metric, from, to));
     columns.add_row(std::move(last));
   }
-  return columns.text() + "ok %: of the elements, in the range that Verdict's manual calls acceptable\n";
+  return columns.text();
+}
+
+std::string metrics_text(const QualityReport& before, const QualityReport& after) {
+  std::string text = table_of_both(before, after);
+  for (std::size_t k = 0; before.kinds.size() > 1 && k < before.kinds.size(); ++k) {
+    text += "\n" + kind_alone(before.kinds[k]) + table_of_both(report_of(before.kinds[k]), report_of(after.kinds[k]));
+  }
+  return text + "ok %: of the elements, in the range that Verdict's manual calls acceptable\n";
 }
 
 /// A bar for `count` out of `largest`; a count that is not 0 shows at least a dot.

@@ -31,6 +31,10 @@ std::unique_ptr<PreparedSmoother> prepared(const Backend& backend, MeshRings mes
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local, const ElementList& elements,
                     const Constraints& constraints, const std::function<MeshRings()>& on_host);
 
+/// What the user is to know where the options want a device to find the topology of a mesh with quadrilaterals, which
+/// the host does; else empty.
+std::string host_finds_quadrilaterals(const SmoothingOptions& options);
+
 /// What the user is to know where a device has failed to find the topology and the host does it instead.
 std::string host_took_over(const DeviceError& error);
 

@@ -35,6 +35,7 @@ class SmoothingPlan::Implementation {
       const std::span<const MixedElement> elements = indices.elements(vertex_count, mixed_);
       if (!are_triangles(elements)) {
         keep(elements, mixed_);
+        note_ = host_finds_quadrilaterals(options);
         mesh_.emplace(vertex_count_, std::span<const MixedElement>(mixed_), constraints, workers_);
         return;
       }

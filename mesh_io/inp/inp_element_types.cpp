@@ -173,6 +173,10 @@ InpElementType inp_element_type(std::string_view name) {
   return {};
 }
 
+bool joins_faces(std::string_view name) {
+  return name.starts_with("COH") || name.starts_with("GK");
+}
+
 std::string_view inp_type_of_cell(std::uint8_t cell) {
   const auto* const found =
       std::ranges::find(inp_written_types, cell, &std::pair<std::uint8_t, std::string_view>::first);

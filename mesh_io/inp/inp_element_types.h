@@ -19,6 +19,10 @@ struct InpElementType {
 /// that all variants are known (CPS3, CPE4R, S8R5, CAX6MH, ...).
 InpElementType inp_element_type(std::string_view name);
 
+/// Whether elements of that type (in upper case) join two faces: cohesive ones and gaskets. Their thickness, which may
+/// be none, is part of the model.
+bool joins_faces(std::string_view name);
+
 /// The element type that is written for cells of that type: plane stress, trusses and solids, as Gmsh writes them;
 /// empty where there is none.
 std::string_view inp_type_of_cell(std::uint8_t cell);

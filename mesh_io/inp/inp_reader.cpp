@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/included_sources.h"
 #include "trismooth/mesh_io/document/point_ids.h"
@@ -44,6 +45,28 @@ void add_notes(const InpModel& model, std::size_t unknown_members, std::vector<s
   add_note_of_included(model.sources, notes);
   if (model.names_other_files) {
     notes.emplace_back("names files that hold no mesh (INPUT=, FILE=): output in another folder needs them there");
+  }
+}
+
+/// Elements that join two faces keep their thickness: their nodes stay.
+void hold_joined_faces(const InpModel& model, MeshDocument& document) {
+  NamedSet held{"abaqus:cohesive", {}};
+  std::int64_t elements = 0;
+  for (std::size_t b = 0; b < model.blocks.size(); ++b) {
+    if (!joins_faces(model.blocks[b].type)) {
+      continue;
+    }
+    const std::size_t end = b + 1 < model.blocks.size() ? model.blocks[b + 1].first_cell : document.cells.size();
+    for (std::size_t cell = model.blocks[b].first_cell; cell < end; ++cell, ++elements) {
+      const auto nodes = document.cells[cell];
+      held.members.insert(held.members.end(), nodes.begin(), nodes.end());
+    }
+  }
+  if (elements > 0) {
+    document.notes.push_back(
+        counted(elements, "cohesive or gasket element keeps its", "cohesive or gasket elements keep their") +
+        " thickness: the nodes are held, which --fixed-set none lets go");
+    document.implied_sets.push_back(std::move(held));
   }
 }
 
@@ -100,6 +123,7 @@ MeshDocument read_inp(const std::filesystem::path& path, FileBytes bytes, const 
   const std::size_t unknown_members = find_inp_members(model, document.cells);
   add_inp_sets(model, document);
   add_notes(model, unknown_members, document.notes);
+  hold_joined_faces(model, document);
   document.most_coordinate_characters = 20;
   document.points = model.points;
   add_labels(model, document);

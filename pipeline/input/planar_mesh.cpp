@@ -57,7 +57,7 @@ void require_elements(std::int64_t elements, std::int64_t cells, const std::file
     throw ReadError(path,
                     holds + "triangle; " +
                         counted(unsmoothed.held_quads, "is a quadrilateral that is", "are quadrilaterals that are") +
-                        " held, which --quads smooth smooths, on one process and by the CPU");
+                        " held; --quads smooth smooths them");
   }
   if (unsmoothed.high_order_triangles > 0) {
     throw ReadError(path, holds + "triangle of three or six nodes; " + has(unsmoothed.high_order_triangles) +

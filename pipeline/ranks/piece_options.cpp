@@ -126,6 +126,7 @@ void require_same_options(const PipelineOptions& options, const mpi::Communicato
                                {"--field-array", number_of(options.field_arrays)},
                                {"--project", number_of(options.project)},
                                {"--geographic", options.geographic ? 1 : 0},
+                               {"--quads", static_cast<std::int64_t>(options.quads)},
                                {"--partition", number_of(options.partition)},
                                {"--gather", options.gather ? 1 : 0},
                                {"--single", options.single ? 1 : 0},
@@ -158,7 +159,8 @@ void require_piece_options(const PipelineOptions& options) {
   refuse(names_sets(options.fixed_sets) && is_read_in_pieces, "--fixed-set with the name of a set",
          "files of VTK have none; ARRAY=NUMBER and --fixed-array hold vertices");
   refuse(!options.fixed_vertices.empty(), "PipelineOptions::fixed_vertices", "name them in a file, by fixed_ids");
-  refuse(options.smoothing.topology == Topology::halfedge, "--topology halfedge", "the result is the same without it");
+  refuse(options.smoothing.topology == Topology::halfedge, "--topology halfedge",
+         "the result of triangles is the same without it");
 }
 
 }  // namespace trismooth

@@ -191,9 +191,12 @@ std::string cards(const PipelineResult& result) {
   return "<div class=\"cards\">\n" + html + "</div>\n";
 }
 
-std::string metric_name_cell(const MetricInfo& metric) {
+/// `report`: whose metric it is. What it means is said of one kind of elements.
+std::string metric_name_cell(const MetricInfo& metric, const QualityReport& report) {
   const std::string unit = metric.unit.empty() ? std::string{} : fmt::format(", {}", escape_html(metric.unit));
-  return html_cell(fmt::format("{}<small>{}{}</small>", metric.name, escape_html(metric.meaning), unit));
+  const std::string meaning =
+      report.kinds.size() > 1 ? "each kind by its own definition" : escape_html(metric.meaning) + unit;
+  return html_cell(fmt::format("{}<small>{}</small>", metric.name, meaning));
 }
 
 std::string metric_table(const QualityReport& report) {
@@ -204,7 +207,7 @@ std::string metric_table(const QualityReport& report) {
     const MetricInfo& metric = *shown;
     const MetricSummary& summary = summary_of(report, metric);
     const int digits = decimals(metric.metric);
-    html += "<tr>" + metric_name_cell(metric) +
+    html += "<tr>" + metric_name_cell(metric, report) +
             html_cell(number_text(summary.min, digits), metric.larger_is_better ? "strong" : "", "min") +
             html_cell(number_text(summary.mean, digits), "", "mean") +
             html_cell(number_text(summary.max, digits), metric.larger_is_better ? "" : "strong", "max") +
@@ -242,7 +245,8 @@ std::string metric_table(const QualityReport& before, const QualityReport& after
       return html_cell(texts.before, "start", label) + html_cell(texts.after, is_bad_end ? "strong" : "");
     };
     const std::string_view judged = verdict(metric.metric, from, to);
-    html += "<tr>" + metric_name_cell(metric) + end_of_range("min", &MetricSummary::min, metric.larger_is_better) +
+    html += "<tr>" + metric_name_cell(metric, after) +
+            end_of_range("min", &MetricSummary::min, metric.larger_is_better) +
             end_of_range("mean", &MetricSummary::mean, false) +
             end_of_range("max", &MetricSummary::max, !metric.larger_is_better) +
             html_cell(percent_text(from.acceptable_fraction), "start", "acceptable %") +
@@ -454,6 +458,12 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   if (result.before.elements() > 0) {
     html +=
         html_section("Quality", after == nullptr ? metric_table(result.before) : metric_table(result.before, *after));
+    for (std::size_t k = 0; result.before.kinds.size() > 1 && k < result.before.kinds.size(); ++k) {
+      const QualityReport of_kind = report_of(result.before.kinds[k]);
+      html +=
+          html_section("Quality of " + std::string(words_of(of_kind).several),
+                       after == nullptr ? metric_table(of_kind) : metric_table(of_kind, report_of(after->kinds[k])));
+    }
     html += html_section("Distribution of shape", histogram(result));
   }
   if (!result.regions_before.empty()) {

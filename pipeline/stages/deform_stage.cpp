@@ -18,6 +18,7 @@
 #include "trismooth/pipeline/stages/stored_result.h"
 #include "trismooth/pipeline/stages/warnings.h"
 #include "trismooth/pipeline/stages/write_stage.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/quality/size_change.h"
 #include "trismooth/smoothing/commit.h"
 #include "trismooth/smoothing/errors.h"
@@ -67,6 +68,23 @@ std::vector<Obeys> who_obeys(const RunState& run) {
   return obeys;
 }
 
+/// The quadrilaterals, which are held, that are valid in the file, counter-clockwise.
+std::vector<MixedElement> valid_quads(const RunState& run) {
+  std::vector<MixedElement> valid;
+  const CellList& cells = run.document.cells;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (const auto quad = quad_of_cell(cells.types[cell], cells[cell])) {
+      const auto& [a, b, c, d] = *quad;
+      for (const MixedElement& corners : {MixedElement{a, b, c, d}, MixedElement{a, d, c, b}}) {
+        if (shape_quotient(points_of(corners, run.local.points)) > 0) {
+          valid.push_back(corners);
+        }
+      }
+    }
+  }
+  return valid;
+}
+
 }  // namespace
 
 Deformer::Deformer(RunState& run)
@@ -75,6 +93,7 @@ Deformer::Deformer(RunState& run)
       file_places_(run.mesh.points),
       file_local_(run.local),
       obeys_(who_obeys(run)),
+      valid_quads_(valid_quads(run)),
       moving_(moving_mesh_of(run)) {
   if (run.options.annotate) {
     run.input_points = file_points_;
@@ -195,6 +214,9 @@ void Deformer::step_checked() {
     const Point2<double> way = run_.mesh.points[v] - file_places_[v];
     step.largest_displacement = std::max(step.largest_displacement, std::hypot(way.x, way.y));
   }
+  folded_quads_ = std::max(folded_quads_, std::ranges::count_if(valid_quads_, [this](const MixedElement& corners) {
+                             return !(shape_quotient(points_of(corners, run_.local.points)) > 0);
+                           }));
   step.sweeps = result.smoothing->sweeps;
   step.stop_reason = result.smoothing->stop_reason;
   step.coordinates_hash = result.coordinates_hash;
@@ -222,6 +244,12 @@ void Deformer::step_checked() {
         fmt::format("the sweeps of {} ended at --max-sweeps, where the mesh was still on its way; a larger number "
                     "lets it arrive",
                     counted(ended, "step", "steps")));
+  }
+  if (folded_quads_ > 0) {
+    run_.warn(
+        counted(folded_quads_, "quadrilateral that is held is", "quadrilaterals that are held are") +
+        " folded, or have a flat corner, where most are: they go where their corners are told, and are in no figure "
+        "and no gate; two triangles in place of each follow the boundary");
   }
   result.deformation = std::move(steps_);
   for (std::string& warning : warnings_of_deformation(run_.result)) {

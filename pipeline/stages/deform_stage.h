@@ -51,8 +51,10 @@ class Deformer {
   BulkVector<Point2<double>> file_places_;  ///< in the plane
   LocalPoints file_local_;
   std::vector<Obeys> obeys_;
-  std::vector<std::string> said_;      ///< of files of displacements
-  std::vector<std::uint8_t> is_told_;  ///< a byte a vertex: the step says where it goes
+  std::vector<MixedElement> valid_quads_;  ///< that are held, and valid in the file
+  std::ptrdiff_t folded_quads_ = 0;        ///< of these, in the step that folds most
+  std::vector<std::string> said_;          ///< of files of displacements
+  std::vector<std::uint8_t> is_told_;      ///< a byte a vertex: the step says where it goes
   MovingMesh moving_;
   FollowResult followed_;  ///< of the last step
   std::size_t done_ = 0;

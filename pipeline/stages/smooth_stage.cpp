@@ -107,6 +107,7 @@ SmoothingResult smooth_mesh(RunState& run) {
   SmoothingResult smoothing =
       limited(run.smoothing, backend_of(run.smoothing).name(), [&run] { return smooth_points(run); });
   smoothing.backend_note = joined_notes(run.found.note, smoothing.backend_note);
+  smoothing.quadrilaterals = run.mesh.count_quadrilaterals();
   if (smoothing.stop_reason == StopReason::cancelled) {
     return smoothing;
   }

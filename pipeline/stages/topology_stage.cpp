@@ -149,11 +149,17 @@ Quads settled_quads(RunState& run) {
     return options.quads;
   }
   std::int64_t quads = 0;
+  std::int64_t triangles = 0;
   for (std::size_t cell = 0; cell < run.document.cells.size(); ++cell) {
     quads += is_quad(cell) ? 1 : 0;
+    triangles += count_triangles(run.document.cells.types[cell], run.document.cells[cell]);
+  }
+  const std::string held = counted(quads, "quadrilateral is", "quadrilaterals are") + " held: " + reason;
+  if (quads > 0 && triangles == 0) {
+    throw ReadError(options.input, "holds no triangle, and " + held);
   }
   if (quads > 0) {
-    run.note(counted(quads, "quadrilateral is", "quadrilaterals are") + " held: " + reason);
+    run.note(held);
   }
   return Quads::hold;
 }
@@ -250,7 +256,9 @@ MeshRings rings_of(RunState& run, const Constraints& constraints, std::unique_pt
                ? on_host()
                : rings_for(run.options.smoothing, run.local.points, mesh.elements, constraints, on_host);
   } catch (const MeshError& error) {
-    throw ReadError(run.options.input, error.what());
+    const bool has_quads = !mesh.elements.are_triangles();
+    throw ReadError(run.options.input,
+                    std::string(error.what()) + (has_quads ? "; --quads hold leaves quadrilaterals as they are" : ""));
   }
 }
 

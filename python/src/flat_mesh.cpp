@@ -318,6 +318,9 @@ nb::dict flat_mesh(std::size_t vertex_count, nb::handle types, nb::handle sizes,
                           " smoothed where nothing slides");
   }
   keep_one_kind(cells);
+  if (cells.elements.empty() && cells.held_quads > 0) {
+    raise_value_error("slide", "nothing slides in a mesh of quadrilaterals alone; leave it out");
+  }
   if (cells.elements.empty()) {
     raise_value_error("points", "it has no triangles, and no quadrilaterals of four nodes");
   }

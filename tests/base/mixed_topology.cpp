@@ -274,7 +274,8 @@ TEST_CASE("elements that are none are refused, each by its number") {
   CHECK(message({{0, 1, 2, 1}}) == "element 0 repeats a vertex");
   // A band of three quadrilaterals whose ends are joined the wrong way round.
   CHECK(message({{0, 1, 3, 2}, {2, 3, 5, 4}, {4, 5, 0, 1}}) ==
-        "the elements connected with element 1 cannot be oriented consistently (a one-sided surface)");
+        "the elements connected with element 1 cannot be oriented consistently (a one-sided surface, or a "
+        "quadrilateral whose corners are not listed in turn)");
 }
 
 TEST_CASE("the corners of a quadrilateral in canonical order begin with the smallest and turn to the left") {

@@ -240,6 +240,15 @@ TEST_CASE("what cannot be had with quadrilaterals holds them or is refused, in a
   PipelineOptions held;
   held.quads = Quads::hold;
   CHECK(says(message_of<ReadError>([&] { check_document(alone, held); }), "--quads smooth"));
+  PipelineOptions by_halfedges = options_of(Method::smart);
+  by_halfedges.smoothing.topology = Topology::halfedge;
+  CHECK(says(message_of<ReadError>([&] { smooth_document(alone, by_halfedges); }), "without --topology halfedge"));
+  // A quadrilateral whose corners are not in turn.
+  MeshDocument crossed = document_of(MixedMesh(5, 5, 0.1, 1, 0));
+  std::swap(crossed.cells.connectivity[4 * 12], crossed.cells.connectivity[4 * 12 + 1]);
+  const std::string refused = message_of<ReadError>([&] { check_document(crossed, {}); });
+  CHECK(says(refused, "corners are not listed in turn"));
+  CHECK(says(refused, "--quads hold"));
 }
 
 TEST_CASE("reports and gates are of the elements of both kinds, and of each alone") {
@@ -368,6 +377,51 @@ TEST_CASE("named sides of quadrilaterals hold their vertices") {
   for (const std::size_t v : {12, 17}) {
     CHECK(document.points[3 * v] == before[3 * v]);
   }
+}
+
+TEST_CASE("cohesive elements of Abaqus keep their thickness, and a note says so") {
+  const ScratchFolder folder;
+  // Two rows of triangles, and between them one of elements without thickness.
+  std::string text = "*NODE\n";
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 7; ++column) {
+      const double y = row < 2 ? row : row - 1;
+      text += std::to_string(7 * row + column + 1) + ", " + std::to_string(column + (row == 1 || row == 2 ? 0.2 : 0)) +
+              ", " + std::to_string(y) + "\n";
+    }
+  }
+  const auto rows = [&](const std::string& type, int first_element, const std::vector<int>& of, bool cuts) {
+    text += "*ELEMENT, TYPE=" + type + "\n";
+    for (const int row : of) {
+      for (int column = 0; column < 6; ++column) {
+        const int a = 7 * row + column + 1;
+        const auto line = [&](const std::vector<int>& nodes) {
+          text += std::to_string(first_element++);
+          for (const int node : nodes) {
+            text += ", " + std::to_string(node);
+          }
+          text += "\n";
+        };
+        if (cuts) {
+          line({a, a + 1, a + 8});
+          line({a, a + 8, a + 7});
+        } else {
+          line({a, a + 1, a + 8, a + 7});
+        }
+      }
+    }
+  };
+  rows("CPS3", 1, {0, 2}, true);
+  rows("COH2D4", 101, {1}, false);
+  folder.write("cohesive.inp", text);
+  PipelineOptions options = options_of(Method::laplacian);
+  options.input = folder / "cohesive.inp";
+  options.output = folder / "out.inp";
+  const PipelineResult result = run_pipeline(options);
+  CHECK(any_says(result.notes, "6 cohesive or gasket elements keep their thickness"));
+  CHECK(bytes_of(*options.output) == bytes_of(options.input));
+  options.fixed_sets = {"none"};
+  CHECK(run_pipeline(options).smoothing->moved_vertices > 0);
 }
 
 TEST_CASE("quadrilaterals of eight and nine nodes are kept, and named") {

@@ -59,6 +59,7 @@ const std::vector<Option>& shared_options() {
       {"--fixed-ids", {"ids.txt"}, {}},
       {"--fixed-labels", {"ids.txt"}, {}},
       {"--project", {"xy"}, {}},
+      {"--quads", {"hold"}, {}},
       {"--geographic", {}, {}},
       {"--fields", {"keep"}, {}},
       {"--field-array", {"*"}, {}},
