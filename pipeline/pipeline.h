@@ -71,13 +71,13 @@ struct PipelineOptions {
   std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers, rows of the file from 0
   bool fixed_ids_are_labels = false;               ///< those are the numbers that the mesh's own file gives its points
-  std::vector<std::int32_t> fixed_vertices;        ///< vertex numbers from 0, in any order, held as well
-  /// Corners of triangles that are no further apart than this, in the file's unit, count as one vertex and move
-  /// together; the file keeps all of them. Absent: none are joined.
-  std::optional<double> merge;
   /// What becomes of quadrilaterals of four nodes. They are held as well, which a note says, where the mesh follows its
   /// boundary, is connected by halfedges, is in pieces, or the backend smooths triangles alone.
   Quads quads = Quads::smooth;
+  std::vector<std::int32_t> fixed_vertices;  ///< vertex numbers from 0, in any order, held as well
+  /// Corners of triangles that are no further apart than this, in the file's unit, count as one vertex and move
+  /// together; the file keeps all of them. Absent: none are joined.
+  std::optional<double> merge;
   /// Which vertices of boundaries and interfaces slide along them. Lines, their tags and links are those of the file,
   /// in place of its own. Meshes with quadratic triangles or with quadrilaterals that are smoothed, in tilted planes
   /// and in files of few digits do not slide; a note says so.

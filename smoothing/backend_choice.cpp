@@ -51,11 +51,11 @@ MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<doub
     }
   }
   MeshRings found = on_host();
-  found.note = elements.are_triangles() ? std::move(note) : host_finds_quadrilaterals(options);
+  found.note = elements.are_triangles() ? std::move(note) : std::string(host_finds_quadrilaterals(options));
   return found;
 }
 
-std::string host_finds_quadrilaterals(const SmoothingOptions& options) {
+std::string_view host_finds_quadrilaterals(const SmoothingOptions& options) {
   return options.topology == Topology::device
              ? "the host found the neighbours: of a mesh with quadrilaterals no device does"
              : "";

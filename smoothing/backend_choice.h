@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "trismooth/base/element_list.h"
 #include "trismooth/base/point2.h"
@@ -33,7 +34,7 @@ MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<doub
 
 /// What the user is to know where the options want a device to find the topology of a mesh with quadrilaterals, which
 /// the host does; else empty.
-std::string host_finds_quadrilaterals(const SmoothingOptions& options);
+std::string_view host_finds_quadrilaterals(const SmoothingOptions& options);
 
 /// What the user is to know where a device has failed to find the topology and the host does it instead.
 std::string host_took_over(const DeviceError& error);

@@ -103,7 +103,7 @@ void take_out_copies(ElementCells& mesh, Workers& workers) {
   }
   const auto [triangle, first] = repeated.front();
   const auto cell_of = [&](std::int32_t t) { return std::to_string(mesh.cells[t]); };
-  const std::string kind = kind_of_elements(mesh);
+  const std::string kind(kind_of_elements(mesh));
   mesh.notes.push_back(counted(repeated.size(), kind + " is", kind + "s are") + " listed again (the first is cell " +
                        cell_of(triangle) + ", which has the corners of cell " + cell_of(first) +
                        "): " + (repeated.size() == 1 ? "it is" : "each is") +

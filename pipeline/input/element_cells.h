@@ -61,7 +61,7 @@ struct ElementCells {
 };
 
 /// What the elements are called: "triangle" where all are.
-inline std::string kind_of_elements(const ElementCells& mesh) {
+inline std::string_view kind_of_elements(const ElementCells& mesh) {
   return mesh.elements.are_triangles() ? "triangle" : "element";
 }
 

@@ -138,7 +138,7 @@ class RegionFinder {
 
   Regions take() {
     if (const auto several = std::ranges::count(has_several_, 1); several > 0) {
-      const std::string kind = kind_of_elements(mesh_);
+      const std::string kind(kind_of_elements(mesh_));
       regions_.notes.push_back(
           counted(several, kind + " is", kind + "s are") +
           " listed in several regions: what these share is a region of its own, whose border is held; --region-array "

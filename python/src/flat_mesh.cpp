@@ -149,7 +149,7 @@ void keep_one_kind(ElementCells& cells) {
     return;
   }
   const bool keeps_six = quadratic > all - quadratic;
-  const std::string left_kind = keeps_six ? kind_of_elements(cells) : "triangle";
+  const std::string left_kind(keeps_six ? kind_of_elements(cells) : "triangle");
   std::vector<std::int32_t> left;
   auto next = cells.quadratics.begin();
   for (std::size_t e = 0; e < all; ++e) {

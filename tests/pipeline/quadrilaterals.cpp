@@ -400,7 +400,7 @@ TEST_CASE("cohesive elements of Abaqus keep their thickness, and a note says so"
           for (const int node : nodes) {
             text += ", " + std::to_string(node);
           }
-          text += "\n";
+          text += '\n';
         };
         if (cuts) {
           line({a, a + 1, a + 8});
