@@ -102,10 +102,8 @@ std::optional<double> find_value(std::string_view name, const QualityReport& rep
     return report.size_ratio ? report.size_ratio->max : not_known;
   }
   for (const auto& [prefix, statistic] : statistics) {
-    if (name.starts_with(prefix)) {
-      if (name.substr(prefix.size()) == size_ratio_info.name) {
-        return report.size_ratio ? *report.size_ratio.*statistic : not_known;
-      }
+    if (name.starts_with(prefix) && name.substr(prefix.size()) == size_ratio_info.name) {
+      return report.size_ratio ? *report.size_ratio.*statistic : not_known;
     }
   }
   return find_value_of(name, report);
