@@ -18,6 +18,19 @@ using Triangle = std::array<std::int32_t, 3>;
 using MixedElement = std::array<std::int32_t, 4>;
 inline constexpr std::int32_t no_corner = -1;
 
+/// The nodes of an element, and no_corner behind them: three or six of a triangle, four, eight or nine of a
+/// quadrilateral; corners in turn, then the middles of the sides 01, 12, ..., then the centre.
+using ElementNodes = std::array<std::int32_t, 9>;
+
+/// How many nodes stand before the first no_corner.
+constexpr std::size_t node_count(const ElementNodes& nodes) {
+  std::size_t count = 0;
+  while (count < nodes.size() && nodes[count] != no_corner) {
+    ++count;
+  }
+  return count;
+}
+
 /// How many corners a Triangle or a MixedElement has.
 template <std::size_t most>
 constexpr int corner_count(const std::array<std::int32_t, most>& element) {

@@ -4,8 +4,8 @@
 
     quadrilaterals.py [--threads N] [METHOD]...
 
-Without METHOD: all. Meshes are a plate with two holes, recombined by Gmsh, and grids whose inner points are displaced at
-random: of squares, and of squares every second of which is two triangles. Solutions are of Poisson's problem and of plane
+Without METHOD: all. Meshes are an airfoil with a boundary layer and a coast with a channel, of triangles around quadrilaterals, a plate with
+two holes, recombined by Gmsh, and grids whose inner points are displaced at random: of squares, and of squares every second of which is two triangles. Solutions are of Poisson's problem and of plane
 stress, by bilinear and linear elements. Errors are the L2 norm of the solution's and of its gradient's, as multiples of
 those after `smart`, iterations those of conjugate gradients with Jacobi's preconditioner until the residual is 1e-8 of the
 right side.
@@ -13,6 +13,7 @@ Needs NumPy, SciPy, Gmsh and the package trismooth.
 """
 
 import argparse
+import contextlib
 import hashlib
 import time
 
@@ -24,26 +25,84 @@ import scipy.sparse.linalg
 import trismooth
 
 
-def plate(size):
-    """A rectangle with two holes, of quadrilaterals that Gmsh makes of triangles and does not smooth."""
+@contextlib.contextmanager
+def gmsh_model(**options):
+    """A model of Gmsh that smooths nothing by itself; its mesh is to be taken before the end."""
     gmsh.initialize()
-    for option, value in (("General.Terminal", 0), ("Mesh.Smoothing", 0), ("Mesh.MeshSizeMax", size), ("Mesh.MeshSizeMin", size),
-                          ("Mesh.Algorithm", 6), ("Mesh.RecombineAll", 1), ("Mesh.RecombinationAlgorithm", 1)):
+    for option, value in {"General.Terminal": 0, "Mesh.Smoothing": 0, "Mesh.Algorithm": 6, **options}.items():
         gmsh.option.setNumber(option, value)
-    occ = gmsh.model.occ
-    holes = [(2, occ.addDisk(0.6, 0.5, 0, 0.2, 0.2)), (2, occ.addDisk(1.4, 0.45, 0, 0.25, 0.15))]
-    occ.cut([(2, occ.addRectangle(0, 0, 0, 2, 1))], holes)
-    occ.synchronize()
-    gmsh.model.mesh.generate(2)
-    tags, xyz, _ = gmsh.model.mesh.getNodes()
+    yield gmsh.model
+    gmsh.finalize()
+
+
+def mesh_of(model):
+    """The points and elements of the model's mesh."""
+    model.mesh.generate(2)
+    tags, xyz, _ = model.mesh.getNodes()
     row = np.zeros(int(tags.max()) + 1, dtype=np.int32)
     row[tags.astype(int)] = np.arange(len(tags))
     elements = [np.full((0, 4), -1, dtype=np.int32)]
     for kind, corners in ((2, 3), (3, 4)):
-        nodes = row[gmsh.model.mesh.getElementsByType(kind)[1].astype(int)].reshape(-1, corners)
+        nodes = row[model.mesh.getElementsByType(kind)[1].astype(int)].reshape(-1, corners)
         elements.append(np.pad(nodes, ((0, 0), (0, 4 - corners)), constant_values=-1))
-    gmsh.finalize()
     return xyz.reshape(-1, 3)[:, :2].copy(), np.vstack(elements)
+
+
+def plate(size):
+    """A rectangle with two holes, of quadrilaterals that Gmsh makes of triangles."""
+    with gmsh_model(**{"Mesh.MeshSizeMax": size, "Mesh.MeshSizeMin": size, "Mesh.RecombineAll": 1, "Mesh.RecombinationAlgorithm": 1}) as model:
+        holes = [(2, model.occ.addDisk(0.6, 0.5, 0, 0.2, 0.2)), (2, model.occ.addDisk(1.4, 0.45, 0, 0.25, 0.15))]
+        model.occ.cut([(2, model.occ.addRectangle(0, 0, 0, 2, 1))], holes)
+        model.occ.synchronize()
+        return mesh_of(model)
+
+
+def airfoil():
+    """NACA 0012 in a circle: a layer of quadrilaterals from 0.0005 of the chord on, by 1.2, and triangles around it."""
+    x = 0.5 * (1 - np.cos(np.linspace(0, np.pi, 80)))
+    y = 0.6 * (0.2969 * np.sqrt(x) - 0.126 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1036 * x**4)
+    with gmsh_model(**{"Mesh.MeshSizeMax": 1.0, "Mesh.MeshSizeExtendFromBoundary": 1}) as model:
+        occ = model.occ
+        upper = [occ.addPoint(a, b, 0, 0.02) for a, b in zip(x, y)]
+        lower = [upper[0], *(occ.addPoint(a, -b, 0, 0.02) for a, b in zip(x[1:-1], y[1:-1])), upper[-1]]
+        foil = [occ.addSpline(upper), occ.addSpline(lower)]
+        circle = occ.addCircle(0.5, 0, 0, 8)
+        occ.addPlaneSurface([occ.addCurveLoop([circle]), occ.addCurveLoop([foil[0], -foil[1]])])
+        occ.synchronize()
+        layer = model.mesh.field.add("BoundaryLayer")
+        for name, value in (("CurvesList", foil), ("FanPointsList", [upper[-1]])):
+            model.mesh.field.setNumbers(layer, name, value)
+        for name, value in (("Size", 0.0005), ("Ratio", 1.2), ("Quads", 1), ("Thickness", 0.03)):
+            model.mesh.field.setNumber(layer, name, value)
+        model.mesh.field.setAsBoundaryLayer(layer)
+        return mesh_of(model)
+
+
+def coast():
+    """A bay of triangles with a channel that winds inland: quadrilaterals five times as long as wide, as ocean models have
+    them, and triangles on its banks."""
+    along, across, width, length = 60, 6, 0.12, 6.0
+    t = np.linspace(0, 1, 13)
+    middle = np.column_stack([length * t, 0.6 * np.sin(5 * t)])
+    slope = np.column_stack([np.full(13, length), 3.0 * np.cos(5 * t)])
+    normal = np.column_stack([-slope[:, 1], slope[:, 0]]) / np.hypot(*slope.T)[:, None]
+    with gmsh_model(**{"Mesh.MeshSizeMax": 0.4, "Mesh.RecombinationAlgorithm": 1}) as model:
+        geo = model.geo
+        banks = [[geo.addPoint(*p, 0, 0.1) for p in middle + side * width / 2 * normal] for side in (-1, 1)]
+        right, left = (geo.addSpline(bank) for bank in banks)
+        mouth, head = geo.addLine(banks[0][0], banks[1][0]), geo.addLine(banks[0][-1], banks[1][-1])
+        channel = geo.addPlaneSurface([geo.addCurveLoop([right, head, -left, -mouth])])
+        corners = [geo.addPoint(a, b, 0, 0.4) for a, b in ((0, -3), (6, -3), (6, 3), (0, 3))]
+        lower = [geo.addLine(banks[0][0], corners[0]), geo.addLine(corners[0], corners[1]), geo.addLine(corners[1], banks[0][-1])]
+        upper = [geo.addLine(banks[1][-1], corners[2]), geo.addLine(corners[2], corners[3]), geo.addLine(corners[3], banks[1][0])]
+        geo.addPlaneSurface([geo.addCurveLoop([*lower, -right])])
+        geo.addPlaneSurface([geo.addCurveLoop([*upper, left])])
+        for curve, count in ((right, along), (left, along), (mouth, across), (head, across)):
+            geo.mesh.setTransfiniteCurve(curve, count + 1)
+        geo.mesh.setTransfiniteSurface(channel)
+        geo.mesh.setRecombine(2, channel)
+        geo.synchronize()
+        return mesh_of(model)
 
 
 def grid(n, jitter, pairs):
@@ -62,6 +121,7 @@ def grid(n, jitter, pairs):
     return points / n, np.vstack([squares[~is_pair], *halves])
 
 
+HYBRIDS = {"airfoil with a layer of quadrilaterals": airfoil, "coast with a channel of quadrilaterals": coast}
 MESHES = {
     "plate, recombined, size 0.02": lambda: plate(0.02),
     "plate, recombined, size 0.01": lambda: plate(0.01),
@@ -222,6 +282,20 @@ def smoothed(points, elements, methods, threads):
     return found
 
 
+def hybrid(name, make, methods, threads):
+    """What becomes of the quadrilaterals, which are flat on purpose, and of the triangles around them."""
+    points, elements = make()
+    is_quad = elements[:, 3] >= 0
+    print(f"\n{name}: {len(points)} vertices, {is_quad.sum()} quadrilaterals, {(~is_quad).sum()} triangles\n")
+    print("| | quadrilaterals that moved | their smallest shape | triangles: smallest shape | 1st percentile | mean |\n|---|---|---|---|---|---|")
+    for method, (moved, _, _) in smoothed(points, elements, methods, threads).items():
+        has_moved = (moved != points).any(axis=1)
+        shape = trismooth.quality(moved, elements).shape
+        triangles = shape[~is_quad]
+        print(f"| {method} | {has_moved[elements[is_quad]].any(axis=1).sum()} | {shape[is_quad].min():.4f} "
+              f"| {triangles.min():.3f} | {np.quantile(triangles, 0.01):.3f} | {triangles.mean():.3f} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--threads", type=int, default=1)
@@ -230,6 +304,8 @@ def main():
     methods = arguments.methods or [*trismooth.METHODS, "mean-ratio, p 2", "mean-ratio, p 3"]
     if "smart" not in methods:
         methods.insert(0, "smart")
+    for name, make in HYBRIDS.items():
+        hybrid(name, make, methods, arguments.threads)
     for name, make in MESHES.items():
         points, elements = make()
         print(f"\n{name}: {len(points)} vertices, {(elements[:, 3] >= 0).sum()} quadrilaterals, {(elements[:, 3] < 0).sum()} triangles\n")

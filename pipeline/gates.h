@@ -60,7 +60,7 @@ std::vector<std::string> gate_names();
 bool needs_size_ratio(const Gate& gate);
 
 /// The value of that name in the report, NaN where it has none; invalid_quadratic is that of `quadratic`, and 0 for a
-/// mesh without quadratic triangles; crossings and overlaps are those of `step`, which may be null: then there are none
+/// mesh without quadratic elements; crossings and overlaps are those of `step`, which may be null: then there are none
 /// to know of. Throws std::invalid_argument for a name that is not one of gate_names().
 double gate_value(std::string_view name, const QualityReport& report,
                   const std::optional<QuadraticQuality>& quadratic = std::nullopt, const DeformedStep* step = nullptr);

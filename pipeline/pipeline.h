@@ -141,9 +141,10 @@ struct InputSummary {
   std::int64_t triangles = 0;
   std::int64_t quadrilaterals = 0;  ///< that are elements of the mesh; those that are held are other cells
   std::int64_t other_cells = 0;
-  std::int64_t quadratic_triangles = 0;  ///< those of the triangles that have six nodes
-  std::int64_t middle_nodes = 0;         ///< vertices that are neither fixed nor free, but follow the side they are on
-  std::int32_t regions = 0;              ///< 0: no region array
+  std::int64_t quadratic_triangles = 0;       ///< those of the triangles that have six nodes
+  std::int64_t quadratic_quadrilaterals = 0;  ///< those of the quadrilaterals that have eight nodes, or nine
+  std::int64_t middle_nodes = 0;     ///< vertices that are neither fixed nor free, but follow the side they are on
+  std::int32_t regions = 0;          ///< 0: no region array
   std::string region_array;          ///< the array that gave them, or empty; the names of several, separated by ", "
   std::int32_t components = 0;       ///< connected through edges with exactly two triangles
   std::int64_t merged_vertices = 0;  ///< that go with another one, neither fixed nor free: PipelineOptions::merge
@@ -187,7 +188,7 @@ struct PipelineResult {
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
   std::optional<QualityReport> after;  ///< absent where nothing was smoothed
   std::optional<SmoothingResult> smoothing;          ///< absent where nothing was smoothed
-  std::optional<QuadraticQuality> quadratic_before;  ///< absent where the mesh has no quadratic triangles
+  std::optional<QuadraticQuality> quadratic_before;  ///< absent where the mesh has no quadratic elements
   std::optional<QuadraticQuality>
       quadratic_after;                     ///< of the result; absent where quadratic_before is, or nothing was smoothed
   std::optional<SizeChange> size_change;   ///< absent where nothing was smoothed

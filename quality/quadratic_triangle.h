@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/quality/jacobian_bound.h"
 
 namespace trismooth {
 
@@ -22,26 +23,6 @@ using QuadraticNodes = std::array<Point2<double>, 6>;
 /// The coefficients of a polynomial of degree 2 on a triangle, in the Bernstein basis: its values at the corners, then
 /// those that belong to the sides 01, 12 and 20.
 using BernsteinCoefficients = std::array<double, 6>;
-
-/// The smallest value of J, in units of the local frame.
-struct JacobianBound {
-  double straight = 0;  ///< J of the straight triangle of the corners, twice its area
-  double lowest = 0;    ///< the smallest value of J, but for rounding
-  double rounding = 0;  ///< how far rounding may have brought `lowest` off: some 2e-12 of width times height at most
-
-  /// J is positive everywhere, rounding allowed for.
-  constexpr TRISMOOTH_HOST_DEVICE bool is_valid() const { return lowest > rounding; }
-  /// J is somewhere below 0, rounding allowed for, or the straight triangle has no area. An element may be neither
-  /// valid nor this: where the smallest J is 0 to rounding, as at a crack's tip whose middles are at a quarter of their
-  /// sides.
-  constexpr TRISMOOTH_HOST_DEVICE bool is_invalid() const { return lowest < -rounding || straight == 0; }
-  /// The smallest J by that of the straight triangle: 1 where sides are straight and middles in the middle, below 0
-  /// where the element is not valid. Minus infinity where the straight triangle has no area.
-  constexpr TRISMOOTH_HOST_DEVICE double scaled() const {
-    const double size = straight < 0 ? -straight : straight;
-    return size > 0 ? lowest / size : -std::numeric_limits<double>::infinity();
-  }
-};
 
 namespace quadratic_details {
 

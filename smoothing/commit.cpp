@@ -40,10 +40,10 @@ class Commit final : public FollowingNodes {
         points_(points),
         workers_(workers),
         after_(mesh.before.points),
-        middles_of_ends_(points.size(), mesh.middles) {
+        middles_of_corners_(points.size(), mesh.middles) {
     std::vector<std::pair<std::int32_t, std::int32_t>> corners;
     for (std::size_t q = 0; q < mesh.quadratics.size(); ++q) {
-      for (const std::int32_t corner : mesh.elements[static_cast<std::size_t>(mesh.quadratics[q].triangle)]) {
+      for (const std::int32_t corner : mesh.elements[static_cast<std::size_t>(mesh.quadratics[q].element)]) {
         corners.emplace_back(corner, static_cast<std::int32_t>(q));
       }
     }
@@ -73,25 +73,22 @@ class Commit final : public FollowingNodes {
 
   void follow(std::int32_t corner) override {
     put_back(static_cast<std::size_t>(corner));
-    for (const std::int32_t m : middles_of_ends_[corner]) {
-      follow_side(mesh_.middles[static_cast<std::size_t>(m)]);
+    for (const std::int32_t m : middles_of_corners_[corner]) {
+      bring(mesh_.middles[static_cast<std::size_t>(m)]);
     }
   }
 
-  bool is_spoiled(const Triangle& corners, bool is_turned) const override {
-    const auto has_corner = [](std::span<const std::int32_t> triangle, std::int32_t v) {
-      return std::ranges::count(triangle, v) > 0;
-    };
+  bool is_spoiled(std::span<const std::int32_t> corners, bool is_turned) const override {
     return std::ranges::any_of(quadratics_of_corners_[corners[0]], [&](std::int32_t q) {
-      const QuadraticTriangle& quadratic = mesh_.quadratics[static_cast<std::size_t>(q)];
-      const auto t = static_cast<std::size_t>(quadratic.triangle);
-      const std::span<const std::int32_t> listed = mesh_.elements[t];
+      const QuadraticElement& quadratic = mesh_.quadratics[static_cast<std::size_t>(q)];
+      const auto e = static_cast<std::size_t>(quadratic.element);
+      const std::span<const std::int32_t> listed = mesh_.elements[e];
       const auto is_valid = [&](std::span<const Point2<double>> points, bool is_reversed) {
-        return jacobian_bound(quadratic_nodes(listed, quadratic.middles, is_reversed, points)).is_valid();
+        return jacobian_bound(quadratic, listed, is_reversed, points).is_valid();
       };
-      const bool was_reversed = mesh_.rings.reversed[t] != 0;
-      return has_corner(listed, corners[1]) && has_corner(listed, corners[2]) &&
-             !is_valid(after_, was_reversed != is_turned) && is_valid(before(), was_reversed);
+      const bool was_reversed = mesh_.rings.reversed[e] != 0;
+      return std::ranges::is_permutation(listed, corners) && !is_valid(after_, was_reversed != is_turned) &&
+             is_valid(before(), was_reversed);
     });
   }
 
@@ -117,7 +114,7 @@ class Commit final : public FollowingNodes {
     });
     for_blocks(mesh_.middles.size(), [this](std::size_t begin, std::size_t end) {
       for (std::size_t m = begin; m < end; ++m) {
-        follow_side(mesh_.middles[m]);
+        bring(mesh_.middles[m]);
       }
     });
   }
@@ -136,8 +133,8 @@ class Commit final : public FollowingNodes {
     }
   }
 
-  void follow_side(const MiddleNode& middle) {
-    trismooth::follow_side(middle, image_, read_, stored_);
+  void bring(const MiddleNode& middle) {
+    follow_corners(middle, image_, read_, stored_);
     enter(static_cast<std::size_t>(middle.vertex));
   }
 
@@ -195,7 +192,7 @@ class Commit final : public FollowingNodes {
   std::span<Point2<double>> points_;  ///< as they were read, until all is settled
   Workers& workers_;
   BulkVector<Point2<double>> after_;  ///< as they are stored, in the local frame
-  MiddlesOfEnds middles_of_ends_;
+  MiddlesOfCorners middles_of_corners_;
   NumberLists quadratics_of_corners_;
 };
 
@@ -208,15 +205,14 @@ void commit(const SweptMesh& mesh, const StoredImage& image, std::span<double> s
   result.timings.commit += watch.milliseconds();
 }
 
-void follow_side(const MiddleNode& middle, const StoredImage& image, std::span<const double> read,
-                 std::span<double> stored) {
+void follow_corners(const MiddleNode& middle, const StoredImage& image, std::span<const double> read,
+                    std::span<double> stored) {
   for (std::size_t axis = 0; axis < image.numbers; ++axis) {
     const auto at = [&](std::int32_t v) { return image.numbers * static_cast<std::size_t>(v) + axis; };
-    const std::size_t first = at(middle.ends[0]);
-    const std::size_t second = at(middle.ends[1]);
     const std::size_t i = at(middle.vertex);
-    const double now = image.stored(
-        read[i], read[i] + middle_move(middle.share, read[first], stored[first], read[second], stored[second]));
+    const double move = move_of(
+        middle, [&](std::int32_t v) { return read[at(v)]; }, [&](std::int32_t v) { return stored[at(v)]; });
+    const double now = image.stored(read[i], read[i] + move);
     stored[i] = std::isfinite(now) ? now : read[i];
   }
 }

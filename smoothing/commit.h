@@ -21,17 +21,17 @@ class Workers;
 struct SweptMesh {
   const MeshRings& rings;  ///< of the mesh as it was read, in the input's numbering
   ElementList elements;    ///< not listed as triangles where the mesh has not been untangled alone
-  std::span<const QuadraticTriangle> quadratics;  ///< those that have middles
-  std::span<const MiddleNode> middles;            ///< those that follow their sides
-  const LocalPoints& before;                      ///< all vertices as they were read, middles too
-  std::span<const Point2<double>> swept;          ///< where the sweeps left them, in the plane; of middles: anything
+  std::span<const QuadraticElement> quadratics;  ///< those that have middles
+  std::span<const MiddleNode> middles;           ///< those that follow their corners
+  const LocalPoints& before;                     ///< all vertices as they were read, middles too
+  std::span<const Point2<double>> swept;         ///< where the sweeps left them, in the plane; of middles: anything
 };
 
 /// The commit of what the sweeps have left, in any image: it places the vertices, stores them, and judges them until no
 /// element, as it is stored, is worse than it was read (see keep_never_worse()): what is judged are the places of the
 /// numbers that are stored, and of elements with middles whether they are valid, too. A vertex keeps its bits where it
-/// has not moved, where it goes back, and where what it would be stored as is not finite. Middles follow the ends of
-/// their sides (see MiddleNode), also where these go back. Without options.guard nobody is judged.
+/// has not moved, where it goes back, and where what it would be stored as is not finite. Middles follow their
+/// corners (see MiddleNode), also where these go back. Without options.guard nobody is judged.
 ///
 /// `stored`: the numbers of all vertices as they were read; they become those of the result. `points`: likewise their
 /// places in the plane. Counts of `result`, which may have those of a guard of its own, are brought up to date: middles
@@ -41,9 +41,9 @@ struct SweptMesh {
 void commit(const SweptMesh& mesh, const StoredImage& image, std::span<double> stored, std::span<Point2<double>> points,
             const SmoothingOptions& options, Workers& workers, SmoothingResult& result);
 
-/// Brings a middle to where its side's ends take it. `read`: the numbers that were read of all vertices, `stored`:
+/// Brings a middle to where its corners take it. `read`: the numbers that were read of all vertices, `stored`:
 /// those that are stored now.
-void follow_side(const MiddleNode& middle, const StoredImage& image, std::span<const double> read,
-                 std::span<double> stored);
+void follow_corners(const MiddleNode& middle, const StoredImage& image, std::span<const double> read,
+                    std::span<double> stored);
 
 }  // namespace trismooth

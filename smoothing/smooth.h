@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "trismooth/base/array_layout.h"
@@ -10,6 +11,7 @@
 #include "trismooth/base/index_view.h"
 #include "trismooth/base/point_view.h"
 #include "trismooth/base/storage.h"
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/options.h"
@@ -129,5 +131,16 @@ SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::i
 /// Smooths a mesh of quadratic triangles without constraints: fixed is what the mesh itself holds.
 SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
                                  const SmoothingOptions& options = {});
+
+/// Smooths the caller's mesh of elements with nodes in the middle of their sides, and of others among them, in place,
+/// once. `elements`: their nodes (see ElementNodes), in either direction. What smooth_quadratic() says of triangles of
+/// six nodes holds of all: corners are smoothed as smooth() does it, middles of sides follow the ends, and what was
+/// valid by jacobian_bound() (quadratic_quality.h) stays so. The node in the centre of a quadrilateral moves as the
+/// place at its fraction between two opposite sides does, and keeps its bits where no corner moves; where it is named,
+/// or a node of another element too, it stays and the corners are held. `regions` of the constraints has one number an
+/// element. Throws as smooth_quadratic() of triangles does, MeshError for an element of another number of nodes.
+/// Complexity: that of smooth(), and linear beside it.
+SmoothingResult smooth_quadratic(const PointView& points, std::span<const ElementNodes> elements,
+                                 const Constraints& constraints = {}, const SmoothingOptions& options = {});
 
 }  // namespace trismooth

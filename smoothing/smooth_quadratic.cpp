@@ -6,8 +6,10 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "trismooth/base/errors.h"
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/call_limit.h"
@@ -24,38 +26,93 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::size_t nodes_of_quadratic = 6;
+constexpr std::size_t nodes_of_triangle = 6;
 
-/// The triangles of corners, and the middles of their sides.
-struct QuadraticLists {
-  std::vector<Triangle> corners;
-  std::vector<QuadraticTriangle> quadratics;
+/// The elements by their corners, and the middles of those that have such.
+struct ListedElements {
+  std::variant<std::vector<Triangle>, std::vector<MixedElement>> corners;
+  std::vector<QuadraticElement> quadratics;
+
+  ElementList elements() const {
+    return std::visit([](const auto& listed) { return ElementList(listed); }, corners);
+  }
+  IndexView indices() const {
+    return std::visit([](const auto& listed) { return IndexView(listed); }, corners);
+  }
 };
 
-QuadraticLists listed_quadratics(std::span<const std::int32_t> nodes, std::int64_t vertex_count) {
-  if (nodes.size() % nodes_of_quadratic != 0) {
+/// Looks at an element's vertices before they are taken, and from time to time at the limit.
+void check_nodes(std::span<const std::int32_t> nodes, std::size_t element, std::int64_t vertex_count) {
+  if (element % 16384 == 0) {
+    CallLimit::look();
+  }
+  for (const std::int32_t v : nodes) {
+    if (v < 0 || v >= vertex_count) {
+      throw_no_such_vertex(static_cast<std::int64_t>(element), std::to_string(v), vertex_count);
+    }
+  }
+}
+
+ListedElements listed_triangles(std::span<const std::int32_t> nodes, std::int64_t vertex_count) {
+  if (nodes.size() % nodes_of_triangle != 0) {
     throw std::invalid_argument("triangles: " + std::to_string(nodes.size()) +
                                 " vertex numbers, expected six for each triangle");
   }
-  const std::size_t count = nodes.size() / nodes_of_quadratic;
+  const std::size_t count = nodes.size() / nodes_of_triangle;
   check_mesh_size(vertex_count, static_cast<std::int64_t>(count));
-  QuadraticLists lists;
-  lists.corners.reserve(count);
-  lists.quadratics.reserve(count);
+  ListedElements listed;
+  auto& corners = listed.corners.emplace<std::vector<Triangle>>();
+  corners.reserve(count);
+  listed.quadratics.reserve(count);
   for (std::size_t t = 0; t < count; ++t) {
-    if (t % 16384 == 0) {
-      CallLimit::look();
-    }
-    const auto of_triangle = nodes.subspan(nodes_of_quadratic * t, nodes_of_quadratic);
-    for (const std::int32_t v : of_triangle) {
-      if (v < 0 || v >= vertex_count) {
-        throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(v), vertex_count);
-      }
-    }
-    lists.corners.push_back({of_triangle[0], of_triangle[1], of_triangle[2]});
-    lists.quadratics.push_back({static_cast<std::int32_t>(t), {of_triangle[3], of_triangle[4], of_triangle[5]}});
+    const auto of_triangle = nodes.subspan(nodes_of_triangle * t, nodes_of_triangle);
+    check_nodes(of_triangle, t, vertex_count);
+    corners.push_back({of_triangle[0], of_triangle[1], of_triangle[2]});
+    listed.quadratics.push_back(
+        {static_cast<std::int32_t>(t), {of_triangle[3], of_triangle[4], of_triangle[5], no_corner, no_corner}});
   }
-  return lists;
+  return listed;
+}
+
+/// Of an element of so many nodes; 0: there is none.
+std::size_t corners_of(std::size_t nodes) {
+  switch (nodes) {
+    case 3:
+    case 6:
+      return 3;
+    case 4:
+    case 8:
+    case 9:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+ListedElements listed_elements(std::span<const ElementNodes> elements, std::int64_t vertex_count) {
+  check_mesh_size(vertex_count, std::ssize(elements));
+  ListedElements listed;
+  auto& all = listed.corners.emplace<std::vector<MixedElement>>();
+  all.reserve(elements.size());
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    const ElementNodes& row = elements[e];
+    const auto nodes = std::span(row).first(node_count(row));
+    const std::size_t corners = corners_of(nodes.size());
+    if (corners == 0 ||
+        std::any_of(row.begin() + std::ssize(nodes), row.end(), [](auto v) { return v != no_corner; })) {
+      throw MeshError("element " + std::to_string(e) + " has " + std::to_string(nodes.size()) +
+                      " nodes before the first -1: 3, 4, 6, 8 and 9 are possible, and nothing behind them");
+    }
+    check_nodes(nodes, e, vertex_count);
+    all.push_back({row[0], row[1], row[2], corners == 4 ? row[3] : no_corner});
+    if (nodes.size() > corners) {
+      QuadraticElement quadratic{static_cast<std::int32_t>(e), {}};
+      quadratic.middles.fill(no_corner);
+      std::ranges::copy(nodes.subspan(corners), quadratic.middles.begin());
+      listed.quadratics.push_back(quadratic);
+    }
+  }
+  return listed;
 }
 
 /// What the caller names, as flags; none where nothing is named.
@@ -71,10 +128,10 @@ std::vector<std::uint8_t> named_vertices(const Constraints& constraints, std::si
 }
 
 /// All nodes in the local frame of those that cells use.
-LocalPoints local_nodes(std::span<const Point2<double>> nodes, const QuadraticLists& lists,
+LocalPoints local_nodes(std::span<const Point2<double>> nodes, const ElementList& elements,
                         std::span<const std::uint8_t> in_other_cell, Workers& workers) {
   std::vector<std::uint8_t> is_used(in_other_cell.begin(), in_other_cell.end());
-  for (const Triangle& corners : lists.corners) {
+  for (const auto corners : elements) {
     for (const std::int32_t v : corners) {
       is_used[static_cast<std::size_t>(v)] = 1;
     }
@@ -83,19 +140,19 @@ LocalPoints local_nodes(std::span<const Point2<double>> nodes, const QuadraticLi
       nodes, [&](std::size_t v) { return is_used[v] != 0; }, workers);
 }
 
-SmoothingResult smooth_nodes(const PointView& points, const ArrayView<std::int32_t>& triangles,
-                             const Constraints& constraints, const SmoothingOptions& options) {
+SmoothingResult smooth_nodes(const PointView& points, const ListedElements& listed, const Constraints& constraints,
+                             const SmoothingOptions& options) {
   Workers workers(options.threads);
-  const QuadraticLists lists = listed_quadratics(triangles, static_cast<std::int64_t>(points.size()));
-  check_constraints(constraints, static_cast<std::int32_t>(points.size()), std::ssize(lists.corners));
+  const ElementList elements = listed.elements();
+  check_constraints(constraints, static_cast<std::int32_t>(points.size()), static_cast<std::int64_t>(elements.size()));
   if (constraints.slide.along != Slide::off) {
     throw std::invalid_argument(
-        "vertices of quadratic triangles do not slide, since the middles of sides would leave them");
+        "vertices of quadratic elements do not slide, since the middles of sides would leave them");
   }
   std::vector<std::uint8_t> named = named_vertices(constraints, points.size());
   std::vector<std::uint8_t> in_other_cell(constraints.other_cells.begin(), constraints.other_cells.end());
   in_other_cell.resize(points.size(), 0);
-  std::vector<MiddleNode> middles = settle_middles(lists.corners, lists.quadratics, named, in_other_cell);
+  std::vector<MiddleNode> middles = settle_middles(elements, listed.quadratics, named, in_other_cell);
   Constraints settled;
   settled.fixed = named;
   settled.other_cells = in_other_cell;
@@ -109,7 +166,7 @@ SmoothingResult smooth_nodes(const PointView& points, const ArrayView<std::int32
   SmoothingOptions of_sweeps = options;
   // What has been untangled needs the guard that knows what the sweeps began with, too.
   of_sweeps.guard = options.guard && options.untangles();
-  SmoothingPlan of_corners(std::ssize(nodes), lists.corners, settled, of_sweeps);
+  SmoothingPlan of_corners(std::ssize(nodes), listed.indices(), settled, of_sweeps);
   if (points.components() == 3) {
     require_one_height(points, nodes, [&of_corners] { return of_corners.fixed(); });
   }
@@ -118,13 +175,15 @@ SmoothingResult smooth_nodes(const PointView& points, const ArrayView<std::int32
   }
   std::vector<Point2<double>> swept = nodes;
   SmoothingResult result = of_corners.smooth(swept, points.storage());
-  const LocalPoints before = local_nodes(nodes, lists, in_other_cell, workers);
-  const MeshRings rings = find_mesh_rings(before.points, lists.corners, settled, workers);
+  const LocalPoints before = local_nodes(nodes, elements, in_other_cell, workers);
+  const MeshRings rings = find_mesh_rings(before.points, elements, settled, workers);
   std::vector<double> stored = numbers_of(nodes);
-  commit({rings, lists.corners, lists.quadratics, middles, before, swept}, plane_image(points.storage()), stored, nodes,
+  commit({rings, elements, listed.quadratics, middles, before, swept}, plane_image(points.storage()), stored, nodes,
          options, workers, result);
-  count_invalid(
-      lists.corners, rings.reversed, [&](std::int32_t v) { return before.frame.enter(nodes[v]); }, workers, result);
+  elements.visit([&](const auto& all) {
+    count_invalid(
+        all, rings.reversed, [&](std::int32_t v) { return before.frame.enter(nodes[v]); }, workers, result);
+  });
   points.write(nodes, workers);
   return result;
 }
@@ -134,13 +193,24 @@ SmoothingResult smooth_nodes(const PointView& points, const ArrayView<std::int32
 SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
                                  const Constraints& constraints, const SmoothingOptions& options) {
   options.validate();
-  return limited(options, backend_of(options).name(),
-                 [&] { return smooth_nodes(points, triangles, constraints, options); });
+  return limited(options, backend_of(options).name(), [&] {
+    return smooth_nodes(points, listed_triangles(triangles, static_cast<std::int64_t>(points.size())), constraints,
+                        options);
+  });
 }
 
 SmoothingResult smooth_quadratic(const PointView& points, const ArrayView<std::int32_t>& triangles,
                                  const SmoothingOptions& options) {
   return smooth_quadratic(points, triangles, Constraints{}, options);
+}
+
+SmoothingResult smooth_quadratic(const PointView& points, std::span<const ElementNodes> elements,
+                                 const Constraints& constraints, const SmoothingOptions& options) {
+  options.validate();
+  return limited(options, backend_of(options).name(), [&] {
+    return smooth_nodes(points, listed_elements(elements, static_cast<std::int64_t>(points.size())), constraints,
+                        options);
+  });
 }
 
 }  // namespace trismooth

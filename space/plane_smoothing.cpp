@@ -26,7 +26,7 @@ StoredImage image_of(const Plane& plane, Storage storage) {
 }
 
 SmoothingResult smooth_in_image(MeshRings& mesh, const ElementList& elements,
-                                std::span<const QuadraticTriangle> quadratics, std::span<const MiddleNode> middles,
+                                std::span<const QuadraticElement> quadratics, std::span<const MiddleNode> middles,
                                 const StoredImage& image, std::span<double> xyz, BulkVector<Point2<double>>& points,
                                 const LocalPoints& local, Storage swept, const SmoothingOptions& options) {
   SmoothingOptions in_image = options;

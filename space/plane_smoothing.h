@@ -33,7 +33,7 @@ StoredImage image_of(const Plane& plane, Storage storage);
 /// `quadratics`, `middles`: as SweptMesh. `swept`: the type to which places in the image are rounded before they are
 /// stored. All else as smooth_in_plane().
 SmoothingResult smooth_in_image(MeshRings& mesh, const ElementList& elements,
-                                std::span<const QuadraticTriangle> quadratics, std::span<const MiddleNode> middles,
+                                std::span<const QuadraticElement> quadratics, std::span<const MiddleNode> middles,
                                 const StoredImage& image, std::span<double> xyz, BulkVector<Point2<double>>& points,
                                 const LocalPoints& local, Storage swept, const SmoothingOptions& options);
 

@@ -20,8 +20,8 @@ namespace {
 using Middles = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
 Middles middles_of(const ElementCells& mesh, std::int32_t element) {
-  const auto found = std::ranges::lower_bound(mesh.quadratics, element, {}, &QuadraticTriangle::triangle);
-  const bool has_any = found != mesh.quadratics.end() && found->triangle == element;
+  const auto found = std::ranges::lower_bound(mesh.quadratics, element, {}, &QuadraticElement::element);
+  const bool has_any = found != mesh.quadratics.end() && found->element == element;
   const auto corners = mesh.elements[static_cast<std::size_t>(element)];
   Middles middles;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -63,9 +63,9 @@ std::vector<std::int32_t> leave_out(ElementCells& mesh, std::span<const std::int
     kept.push_back(e);
     cells.push_back(mesh.cells[e]);
   }
-  std::vector<QuadraticTriangle> quadratics;
-  for (const QuadraticTriangle& quadratic : mesh.quadratics) {
-    if (const std::int32_t number = numbers[quadratic.triangle]; number >= 0) {
+  std::vector<QuadraticElement> quadratics;
+  for (const QuadraticElement& quadratic : mesh.quadratics) {
+    if (const std::int32_t number = numbers[quadratic.element]; number >= 0) {
       quadratics.push_back({number, quadratic.middles});
     }
   }
@@ -109,7 +109,7 @@ void take_out_copies(ElementCells& mesh, Workers& workers) {
                        "): " + (repeated.size() == 1 ? "it is" : "each is") +
                        " counted and smoothed once, as it is listed first; the file keeps all");
   if (others > 0) {
-    mesh.notes.push_back(std::to_string(others) + " of the triangles that are listed again " +
+    mesh.notes.push_back(std::to_string(others) + " of the " + kind + "s that are listed again " +
                          (others == 1 ? "has" : "have") +
                          " other middles of sides: kept as they are, their vertices held fixed");
   }

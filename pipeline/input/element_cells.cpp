@@ -34,10 +34,18 @@ bool is_high_order(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return type == biquadratic_triangle || (type == cell_type::lagrange_triangle && vertices.size() > 6);
 }
 
+/// 8 or 9 for a quadrilateral with so many nodes, else 0.
+std::size_t nodes_of_quadratic_quad(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  const std::uint8_t fixed_order = type_of_fixed_order(type, vertices.size());
+  const std::size_t nodes = fixed_order == cell_type::quadratic_quad     ? 8
+                            : fixed_order == cell_type::biquadratic_quad ? 9
+                                                                         : 0;
+  return vertices.size() == nodes ? nodes : 0;
+}
+
 bool is_high_order_quad(std::uint8_t type, std::span<const std::int32_t> vertices) {
   constexpr std::uint8_t quadratic_linear_quad = 30;
-  return type == cell_type::quadratic_quad || type == cell_type::biquadratic_quad || type == quadratic_linear_quad ||
-         (type == cell_type::lagrange_quad && vertices.size() > 4);
+  return type == quadratic_linear_quad || (type == cell_type::lagrange_quad && vertices.size() > 9);
 }
 
 bool repeats_a_vertex(std::span<const std::int32_t> corners) {
@@ -151,8 +159,7 @@ void hold_cell(const MeshDocument& document, std::size_t cell, std::optional<std
 void note_high_order(std::int64_t count, const std::string& kind, const std::string& nodes, ElementCells& mesh) {
   if (count > 0) {
     mesh.notes.push_back(counted(count, "of these cells is a " + kind, "of these cells are " + kind + "s") + " of " +
-                         nodes + ", which are not smoothed: save the mesh with elements of order 1" +
-                         (kind == "triangle" ? " or 2" : ""));
+                         nodes + ", which are not smoothed: save the mesh with elements of order 1 or 2");
   }
 }
 
@@ -181,12 +188,16 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
     }
     if (const auto triangle = triangle_of_cell(type, vertices)) {
       if (triangle->middles) {
-        mesh.quadratics.push_back({static_cast<std::int32_t>(mesh.cells.size()), *triangle->middles});
+        const auto [ab, bc, ca] = *triangle->middles;
+        mesh.quadratics.push_back({static_cast<std::int32_t>(mesh.cells.size()), {ab, bc, ca, no_corner, no_corner}});
       }
       collapsed += triangle->is_quad ? 1 : 0;
       lister.add(triangle->corners, c);
     } else if (const auto quad = quads == Quads::smooth ? quad_of_cell(type, vertices) : std::nullopt) {
-      lister.add(*quad, c);
+      if (quad->middles) {
+        mesh.quadratics.push_back({static_cast<std::int32_t>(mesh.cells.size()), *quad->middles});
+      }
+      lister.add(quad->corners, c);
     } else {
       hold_cell(document, c, first_repeating, mesh);
     }
@@ -200,7 +211,8 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
   }
   note_high_order(mesh.high_order_triangles, "triangle", "seven, ten or more nodes (cubic triangles and the like)",
                   mesh);
-  note_high_order(mesh.high_order_quads, "quadrilateral", "six, eight, nine or more nodes", mesh);
+  note_high_order(mesh.high_order_quads, "quadrilateral", "six nodes, or of more than nine (cubic ones and the like)",
+                  mesh);
 }
 
 /// Named boundaries hold their vertices as line cells do.
@@ -223,6 +235,12 @@ std::int64_t ElementCells::count_quadrilaterals() const {
   return elements.are_triangles()
              ? 0
              : std::count_if(elements.begin(), elements.end(), [](auto corners) { return corners.size() == 4; });
+}
+
+std::int64_t ElementCells::count_quadratic_quads() const {
+  return std::ranges::count_if(quadratics, [this](const QuadraticElement& quadratic) {
+    return elements[static_cast<std::size_t>(quadratic.element)].size() == 4;
+  });
 }
 
 ElementCells element_cells(const MeshDocument& document, Workers& workers, Quads quads) {
@@ -248,15 +266,22 @@ std::optional<CellTriangle> triangle_of_cell(std::uint8_t type, std::span<const 
   return triangle;
 }
 
-std::optional<MixedElement> quad_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices) {
+std::optional<CellQuad> quad_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices) {
   constexpr std::uint8_t pixel = 8;  // its corners go by rows
   const bool is_pixel = type == pixel && vertices.size() == 4;
-  if ((!is_pixel && ordinary_type(type, vertices.size()) != cell_type::quad) || vertices.size() != 4 ||
-      repeats_a_vertex(vertices)) {
+  const bool is_straight =
+      is_pixel || (ordinary_type(type, vertices.size()) == cell_type::quad && vertices.size() == 4);
+  const std::size_t nodes = is_straight ? 4 : nodes_of_quadratic_quad(type, vertices);
+  if (nodes == 0 || repeats_a_vertex(vertices)) {
     return std::nullopt;
   }
-  return is_pixel ? MixedElement{vertices[0], vertices[1], vertices[3], vertices[2]}
-                  : MixedElement{vertices[0], vertices[1], vertices[2], vertices[3]};
+  CellQuad quad{{vertices[0], vertices[1], vertices[2], vertices[3]}, std::nullopt};
+  if (is_pixel) {
+    std::swap(quad.corners[2], quad.corners[3]);
+  } else if (nodes > 4) {
+    quad.middles = {vertices[4], vertices[5], vertices[6], vertices[7], nodes == 9 ? vertices[8] : no_corner};
+  }
+  return quad;
 }
 
 bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {

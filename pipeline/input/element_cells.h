@@ -37,19 +37,19 @@ struct ElementCells {
   /// document's own connectivity where it has nothing but triangles, or nothing but quadrilaterals, else `listed`.
   ElementList elements;
   std::variant<std::vector<Triangle>, std::vector<MixedElement>> listed;
-  BulkVector<std::int32_t> cells;             ///< the document's cell of each element, ascending; a strip has several
-  std::vector<CellCopy> copies;               ///< the cells that are these elements again: see take_out_copies()
-  std::vector<QuadraticTriangle> quadratics;  ///< the triangles of six nodes
-  std::vector<std::uint8_t> in_other_cell;    ///< per vertex: 1 where a cell that is no element uses it, or the side of
-                                              ///< an element that is a named boundary
-  NamedSides sides;                           ///< these sides
-  std::vector<std::uint8_t> in_cell;          ///< per vertex: 1 where any cell uses it; the others have no say at all
-  std::int64_t other_cells = 0;               ///< cells that are no elements
-  std::int64_t repeating_triangles = 0;       ///< those of them that are triangles but for a vertex that they repeat
-  std::int64_t high_order_triangles = 0;      ///< those of them that are triangles of seven nodes, of ten, or of more
-  std::int64_t high_order_quads = 0;          ///< and quadrilaterals of eight nodes, of nine, or of more
-  std::int64_t held_quads = 0;                ///< and those of four nodes: Quads::hold
-  std::vector<std::string> notes;             ///< what the user should know, one sentence each
+  BulkVector<std::int32_t> cells;            ///< the document's cell of each element, ascending; a strip has several
+  std::vector<CellCopy> copies;              ///< the cells that are these elements again: see take_out_copies()
+  std::vector<QuadraticElement> quadratics;  ///< those of six, eight and nine nodes
+  std::vector<std::uint8_t> in_other_cell;   ///< per vertex: 1 where a cell that is no element uses it, or the side of
+                                             ///< an element that is a named boundary
+  NamedSides sides;                          ///< these sides
+  std::vector<std::uint8_t> in_cell;         ///< per vertex: 1 where any cell uses it; the others have no say at all
+  std::int64_t other_cells = 0;              ///< cells that are no elements
+  std::int64_t repeating_triangles = 0;      ///< those of them that are triangles but for a vertex that they repeat
+  std::int64_t high_order_triangles = 0;     ///< those of them that are triangles of seven nodes, of ten, or of more
+  std::int64_t high_order_quads = 0;         ///< and quadrilaterals of six nodes, or of more than nine
+  std::int64_t held_quads = 0;               ///< and other quadrilaterals: Quads::hold
+  std::vector<std::string> notes;            ///< what the user should know, one sentence each
 
   /// Makes these the elements.
   template <class Corners>
@@ -58,6 +58,8 @@ struct ElementCells {
   }
   /// How many of the elements are quadrilaterals. Complexity: linear.
   std::int64_t count_quadrilaterals() const;
+  /// How many of the quadratic ones are quadrilaterals. Complexity: linear.
+  std::int64_t count_quadratic_quads() const;
 };
 
 /// What the elements are called: "triangle" where all are.
@@ -66,10 +68,11 @@ inline std::string_view kind_of_elements(const ElementCells& mesh) {
 }
 
 /// Finds them; of quadrilaterals what `quads` says. A triangle strip counts as its triangles (see strip_triangles.h),
-/// and one of six nodes as that of its corners, beside what `quadratics` says; see triangle_of_cell() for the others. A
-/// note says how many quadrilaterals are triangles, and names elements of more nodes. A triangle that repeats a vertex
-/// counts as another cell: it is kept, its vertices are held, and a note says so. Sides that are named boundaries
-/// (named_sides.h) hold their vertices as line cells do. Where the mesh lies makes no difference. Complexity: linear.
+/// and one with nodes in the middle of its sides as that of its corners, beside what `quadratics` says; see
+/// triangle_of_cell() for the others. A note says how many quadrilaterals are triangles, and names elements of more
+/// nodes. A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says
+/// so. Sides that are named boundaries (named_sides.h) hold their vertices as line cells do. Where the mesh lies makes
+/// no difference. Complexity: linear.
 ElementCells element_cells(const MeshDocument& document, Workers& workers, Quads quads = Quads::smooth);
 
 /// Not of a temporary: the elements may be the document's own.
@@ -87,9 +90,15 @@ struct CellTriangle {
 /// nodes of which two corners that follow each other are the same vertex, and no other ones. Constant time.
 std::optional<CellTriangle> triangle_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices);
 
-/// The corners in turn of a cell that is a quadrilateral with four different ones: of four nodes, VTK's pixels,
-/// Lagrange quadrilaterals of order 1 and polygons of four among them. Constant time.
-std::optional<MixedElement> quad_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices);
+/// A cell as a quadrilateral.
+struct CellQuad {
+  MixedElement corners;                                ///< in turn
+  std::optional<std::array<std::int32_t, 5>> middles;  ///< where it has such: see QuadraticElement
+};
+
+/// The quadrilateral that a cell is whose nodes are all different: of four nodes, VTK's pixels and polygons of four
+/// among them, or of eight or nine, Lagrange quadrilaterals of order 1 and 2 among all of these. Constant time.
+std::optional<CellQuad> quad_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices);
 
 /// Whether the cell would be a triangle, did it not repeat a corner, so that it has no area.
 bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices);

@@ -128,8 +128,8 @@ void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::files
       unwrapped.cut.empty() && std::ranges::all_of(unwrapped.turns, [](int turns) { return turns == 0; });
   if (!is_seamless && !mesh.quadratics.empty()) {
     throw ReadError(path,
-                    "triangles of six nodes lie across the jump of the longitudes, where --geographic cannot move "
-                    "their middles; turn the longitudes so that they are continuous");
+                    "elements with nodes in the middle of their sides lie across the jump of the longitudes, where "
+                    "--geographic cannot move these nodes; turn the longitudes so that they are continuous");
   }
   if (!unwrapped.cut.empty()) {
     set_apart(mesh, unwrapped.cut);

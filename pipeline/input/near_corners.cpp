@@ -46,7 +46,8 @@ std::vector<std::int32_t> join_near_corners(std::span<const Point2<double>> poin
 
 std::int64_t merge_corners(PlanarMesh& mesh, double distance) {
   if (!mesh.quadratics.empty()) {
-    throw std::invalid_argument("--merge is for triangles of three nodes, and the mesh has some of six");
+    throw std::invalid_argument(
+        "--merge is for elements of corners alone, and the mesh has some with nodes in the middle of their sides");
   }
   mesh.merged = join_near_corners(mesh.points, mesh.elements, distance);
   mesh.elements.visit([&]<class Corners>(std::span<const Corners> elements) {

@@ -65,8 +65,9 @@ void require_elements(std::int64_t elements, std::int64_t cells, const std::file
                               "mesh with elements of order 1 or 2");
   }
   if (unsmoothed.high_order_quads > 0) {
-    throw ReadError(path, holds + "quadrilateral of four nodes; " + has(unsmoothed.high_order_quads) +
-                              " more, which are not smoothed: save the mesh with elements of order 1");
+    throw ReadError(path, holds + "quadrilateral of four, eight or nine nodes; " + has(unsmoothed.high_order_quads) +
+                              " six, or more than nine (cubic ones and the like), which are not smoothed: save the "
+                              "mesh with elements of order 1 or 2");
   }
   throw ReadError(path, holds + "triangle; only meshes of triangles and quadrilaterals can be smoothed");
 }

@@ -27,7 +27,7 @@ struct PlanarMesh : ElementCells {
   Plane plane;
   std::optional<GeographicMap> map;   ///< where the points are longitudes and latitudes: what they are laid on
   BulkVector<Point2<double>> points;  ///< every vertex of the document in coordinates of the plane, file units
-  std::vector<MiddleNode> middles;    ///< the middles that follow their sides: see settle_middles()
+  std::vector<MiddleNode> middles;    ///< the middles that follow their corners: see settle_middles()
   std::vector<std::int32_t> merged;   ///< per vertex the one it goes with: see merge_corners(); or empty
 
   /// Where a vertex lies in the plane, or on the map, that is stored there.
@@ -43,8 +43,8 @@ struct PlanarMesh : ElementCells {
 /// What keeps cells from being smoothed that are triangles or quadrilaterals.
 struct UnsmoothedCells {
   std::int64_t high_order_triangles = 0;  ///< of more than six nodes
-  std::int64_t high_order_quads = 0;      ///< of more than four
-  std::int64_t held_quads = 0;            ///< of four
+  std::int64_t high_order_quads = 0;      ///< of more than nine, or of six
+  std::int64_t held_quads = 0;            ///< others
 };
 
 /// Throws ReadError naming `path` for a mesh of that many cells, of which none is an element that can be smoothed.
@@ -88,9 +88,9 @@ PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& pat
 bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<const std::uint8_t> fixed,
                   const std::filesystem::path& path, Workers& workers);
 
-/// Tells which middles of the mesh's quadratic triangles follow their sides (mesh.middles), and at which fraction of
-/// them they lie (`points`: x, y, z of every vertex of the document, as the file has them), and holds where it cannot
-/// be, in `named` (a byte a vertex, or empty) and mesh.in_other_cell: see middle_nodes.h of smoothing.
+/// Tells which middles of the mesh's quadratic elements follow their corners (mesh.middles), and at which fraction of
+/// their sides they lie (`points`: x, y, z of every vertex of the document, as the file has them), and holds where it
+/// cannot be, in `named` (a byte a vertex, or empty) and mesh.in_other_cell: see middle_nodes.h of smoothing.
 void settle_middles(PlanarMesh& mesh, std::span<const double> points, std::vector<std::uint8_t>& named);
 
 /// The vertex numbers (from 0, separated by white space, '#' comments) of a text file. Throws ReadError, also for a

@@ -65,6 +65,7 @@ Json input_json(const InputSummary& input) {
           {"quadrilaterals", input.quadrilaterals},
           {"other_cells", input.other_cells},
           {"quadratic_triangles", input.quadratic_triangles},
+          {"quadratic_quadrilaterals", input.quadratic_quadrilaterals},
           {"middle_nodes", input.middle_nodes},
           {"regions", input.regions},
           {"region_array", input.region_array.empty() ? Json(nullptr) : Json(input.region_array)},
@@ -211,7 +212,7 @@ Json gates_json(const std::vector<GateOutcome>& outcomes) {
   return gates;
 }
 
-/// The report with the quality of each region and of quadratic triangles.
+/// The report with the quality of each region and of quadratic elements.
 Json quality_json(const QualityReport& report, const std::vector<std::string>& names,
                   const std::vector<RegionQuality>& qualities, const std::optional<QuadraticQuality>& quadratic) {
   Json regions = Json::array();
@@ -227,6 +228,7 @@ Json quality_json(const QualityReport& report, const std::vector<std::string>& n
   Json json = quality_json(report, names);
   json["regions"] = std::move(regions);
   json["quadratic"] = quadratic ? Json{{"elements", quadratic->elements},
+                                       {"quadrilaterals", quadratic->quadrilaterals},
                                        {"invalid", quadratic->invalid},
                                        {"undecided", quadratic->undecided},
                                        {"min_jacobian", number_json(quadratic->min_jacobian)}}

@@ -32,6 +32,11 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
   if (input.quadrilaterals > 0) {
     what += ", " + counted(input.quadrilaterals, "quadrilateral", "quadrilaterals");
   }
+  if (input.quadratic_quadrilaterals > 0) {
+    what += input.quadratic_quadrilaterals == input.quadrilaterals
+                ? std::string(" of eight or nine nodes")
+                : fmt::format(", {} of them of eight or nine nodes", input.quadratic_quadrilaterals);
+  }
   if (input.other_cells > 0) {
     what += ", " + counted(input.other_cells, "other cell", "other cells");
   }
@@ -127,7 +132,9 @@ std::string step_text(const DeformedStep& step) {
       "smallest shape {:.3g}, seen from the input {:.3g}, {:.3g} on average; largest displacement {:.3g}{}{}",
       step.quality[Metric::shape].min, step.min_relative_shape, step.mean_relative_shape, step.largest_displacement,
       (step.invalid() > 0 ? fmt::format("; {} inverted or degenerate", step.invalid()) : "") +
-          (step.invalid_quadratic() > 0 ? fmt::format("; {} of six nodes not valid", step.invalid_quadratic()) : ""),
+          (step.invalid_quadratic() > 0
+               ? fmt::format("; {} with nodes in the middle of their sides not valid", step.invalid_quadratic())
+               : ""),
       step.crossings + step.overlaps > 0 ? "; it lies over itself" : "");
 }
 
@@ -223,9 +230,9 @@ std::string quadratic_text(const PipelineResult& result) {
   }
   const QuadraticQuality& before = *result.quadratic_before;
   const QuadraticQuality& now = result.quadratic_after ? *result.quadratic_after : before;
-  std::string text =
-      fmt::format("Of {} {} not valid", counted(now.elements, "triangle of six nodes", "triangles of six nodes"),
-                  now.invalid == 0 ? "none is" : counted(now.invalid, "is", "are"));
+  const auto [one, several] = quadratic_words(now);
+  std::string text = fmt::format("Of {} {} not valid", counted(now.elements, one, several),
+                                 now.invalid == 0 ? "none is" : counted(now.invalid, "is", "are"));
   if (result.quadratic_after) {
     text += fmt::format(" ({} before)", before.invalid);
   }

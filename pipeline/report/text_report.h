@@ -34,7 +34,7 @@ std::string untangling_text(const UntanglingResult& untangling);
 /// "396 of 396 vertices on 4 lines slid, which are ..": what became of vertices that may slide.
 std::string sliding_text(const PipelineResult& result);
 
-/// How valid quadratic triangles are, as a sentence; empty where the mesh has none.
+/// How valid quadratic elements are, as a sentence; empty where the mesh has none.
 std::string quadratic_text(const PipelineResult& result);
 
 /// What every report says of a result that another run would not give.

@@ -54,15 +54,15 @@ std::vector<Obeys> who_obeys(const RunState& run) {
   const auto region_of = [&](std::int32_t triangle) {
     return run.regions.of_triangle.empty() ? 0 : run.regions.of_triangle[triangle];
   };
-  for (const QuadraticTriangle& quadratic : mesh.quadratics) {
+  for (const QuadraticElement& quadratic : mesh.quadratics) {
     for (const std::int32_t middle : quadratic.middles) {
-      if (obeys[middle] == Obeys::always) {
+      if (middle == no_corner || obeys[middle] == Obeys::always) {
         continue;  // held by itself
       }
       std::int32_t& first = first_triangle[middle];
-      const bool is_on_boundary = first == none || region_of(first) != region_of(quadratic.triangle);
+      const bool is_on_boundary = first == none || region_of(first) != region_of(quadratic.element);
       obeys[middle] = is_on_boundary ? Obeys::if_told : Obeys::never;
-      first = quadratic.triangle;
+      first = quadratic.element;
     }
   }
   return obeys;
@@ -74,7 +74,7 @@ std::vector<MixedElement> valid_quads(const RunState& run) {
   const CellList& cells = run.document.cells;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     if (const auto quad = quad_of_cell(cells.types[cell], cells[cell])) {
-      const auto& [a, b, c, d] = *quad;
+      const auto& [a, b, c, d] = quad->corners;
       for (const MixedElement& corners : {MixedElement{a, b, c, d}, MixedElement{a, d, c, b}}) {
         if (shape_quotient(points_of(corners, run.local.points)) > 0) {
           valid.push_back(corners);
@@ -191,7 +191,7 @@ void Deformer::move_inside() {
   const StoredImage image = stored_image(run_);
   for (const MiddleNode& middle : run_.mesh.middles) {
     if (is_told_[middle.vertex] == 0) {
-      follow_side(middle, image, file_points_, run_.document.points);
+      follow_corners(middle, image, file_points_, run_.document.points);
       run_.mesh.points[middle.vertex] =
           run_.mesh.place(middle.vertex, FilePoint(run_.document.points.data() + 3 * std::size_t(middle.vertex)));
     }

@@ -36,37 +36,31 @@ std::vector<std::int32_t> moved_vertices(std::span<const Point2<double>> before,
   return moved;
 }
 
-/// The triangles in which fields are linear, with their regions: those of the mesh, but in place of one of six nodes
-/// the four between its nodes, and in place of a quadrilateral the two that its shorter diagonal makes of it.
+/// The triangles in which fields are linear, with their regions: those of the mesh, but in place of a quadrilateral the
+/// two that its shorter diagonal makes of it, and in place of an element with nodes in the middle of its sides those
+/// between its nodes.
 class FieldTriangles {
  public:
   /// `points`: where the vertices are at which the values are known.
   FieldTriangles(const PlanarMesh& mesh, std::span<const Point2<double>> points, std::span<const std::int32_t> regions)
-      : triangles_(mesh.elements.triangles()), regions_(regions) {
+      : points_(points), triangles_(mesh.elements.triangles()), regions_(regions) {
     if (mesh.quadratics.empty() && mesh.elements.are_triangles()) {
       return;
     }
-    parts_.reserve((mesh.elements.are_triangles() ? 1 : 2) * mesh.elements.size() + 3 * mesh.quadratics.size());
+    constexpr std::size_t most_more = 7;  // triangles between nine nodes, less the element itself
+    parts_.reserve((mesh.elements.are_triangles() ? 1 : 2) * mesh.elements.size() + most_more * mesh.quadratics.size());
     auto quadratic = mesh.quadratics.begin();
-    for (std::size_t t = 0; t < mesh.elements.size(); ++t) {
-      const auto corners = mesh.elements[t];
-      const std::int32_t a = corners[0];
-      const std::int32_t b = corners[1];
-      const std::int32_t c = corners[2];
-      if (corners.size() == 4) {
-        const std::int32_t d = corners[3];
-        const bool by_ac = squared_length(points[c] - points[a]) <= squared_length(points[d] - points[b]);
-        parts_.push_back(by_ac ? Triangle{a, b, c} : Triangle{a, b, d});
-        parts_.push_back(by_ac ? Triangle{a, c, d} : Triangle{b, c, d});
-      } else if (quadratic != mesh.quadratics.end() && static_cast<std::size_t>(quadratic->triangle) == t) {
-        const auto [ab, bc, ca] = quadratic->middles;
-        parts_.insert(parts_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        ++quadratic;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      const auto corners = mesh.elements[e];
+      if (quadratic != mesh.quadratics.end() && static_cast<std::size_t>(quadratic->element) == e) {
+        add_quadratic(corners, *quadratic++);
+      } else if (corners.size() == 4) {
+        add_quad({corners[0], corners[1], corners[2], corners[3]});
       } else {
-        parts_.push_back({a, b, c});
+        parts_.push_back({corners[0], corners[1], corners[2]});
       }
       if (!regions.empty()) {
-        regions_of_parts_.resize(parts_.size(), regions[t]);
+        regions_of_parts_.resize(parts_.size(), regions[e]);
       }
     }
     triangles_ = parts_;
@@ -81,6 +75,34 @@ class FieldTriangles {
   std::span<const std::int32_t> regions() const { return regions_; }
 
  private:
+  void add_quad(const MixedElement& quad) {
+    const auto [a, b, c, d] = quad;
+    const bool by_ac = squared_length(points_[c] - points_[a]) <= squared_length(points_[d] - points_[b]);
+    parts_.push_back(by_ac ? Triangle{a, b, c} : Triangle{a, b, d});
+    parts_.push_back(by_ac ? Triangle{a, c, d} : Triangle{b, c, d});
+  }
+
+  /// Around a centre the four quarters; else what is at each corner, and what the middles enclose.
+  void add_quadratic(std::span<const std::int32_t> corners, const QuadraticElement& quadratic) {
+    const std::size_t sides = corners.size();
+    const auto& middles = quadratic.middles;
+    const bool has_centre = sides == 4 && quadratic.centre() != no_corner;
+    for (std::size_t i = 0; i < sides; ++i) {
+      const std::int32_t before = middles[(i + sides - 1) % sides];
+      if (has_centre) {
+        add_quad({corners[i], middles[i], quadratic.centre(), before});
+      } else {
+        parts_.push_back({corners[i], middles[i], before});
+      }
+    }
+    if (sides == 3) {
+      parts_.push_back({middles[0], middles[1], middles[2]});
+    } else if (!has_centre) {
+      add_quad({middles[0], middles[1], middles[2], middles[3]});
+    }
+  }
+
+  std::span<const Point2<double>> points_;
   std::vector<Triangle> parts_;
   std::vector<std::int32_t> regions_of_parts_;
   std::span<const Triangle> triangles_;

@@ -47,7 +47,7 @@ void hash_coordinates(RunState& run, std::span<const double> read, std::span<con
                    [&run](double now, double before) { return stored_coordinate(run.document, before, now); });
   }
   for (const MiddleNode& middle : run.mesh.middles) {
-    follow_side(middle, image, read, unguarded);
+    follow_corners(middle, image, read, unguarded);
   }
   follow_merged(run.mesh, before_merging, unguarded);
   run.result.unguarded_hash = coordinates_hash(unguarded);

@@ -18,7 +18,7 @@ struct RunContext;
 struct QualityOfMesh {
   QualityReport report;
   std::vector<RegionQuality> regions;         ///< empty where there are no two
-  std::optional<QuadraticQuality> quadratic;  ///< where there are triangles of six nodes
+  std::optional<QuadraticQuality> quadratic;  ///< where there are quadratic elements
 };
 
 /// The mesh of a run, of which its stages ask what they do with it and say of it (StagedRun). It is there as a whole

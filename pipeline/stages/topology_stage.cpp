@@ -183,7 +183,7 @@ void settle_sliding(RunState& run) {
         "--slide is for lines in a plane, which --geographic makes curves of; leave out one of them");
   }
   if (!run.mesh.quadratics.empty()) {
-    run.note("the mesh has quadratic triangles, whose sides have middles: no vertex slides");
+    run.note("the mesh has elements with nodes in the middle of their sides: no vertex slides");
   } else if (!run.mesh.elements.are_triangles()) {
     run.note("the mesh has quadrilaterals, with which no vertex slides; with --quads hold those of triangles do");
   } else if (!run.mesh.plane.aligned) {
@@ -216,10 +216,10 @@ Sliding sliding_of(const RunState& run, const SlideLines& lines) {
 void note_held_middles(RunState& run, std::vector<std::uint8_t> held) {
   std::int64_t middles = 0;
   if (!held.empty()) {
-    for (const QuadraticTriangle& quadratic : run.mesh.quadratics) {
+    for (const QuadraticElement& quadratic : run.mesh.quadratics) {
       for (const std::int32_t middle : quadratic.middles) {
-        // (A middle of two triangles counts once.)
-        middles += std::exchange(held[middle], std::uint8_t{0}) != 0 ? 1 : 0;
+        // (A middle of two elements counts once.)
+        middles += middle != no_corner && std::exchange(held[middle], std::uint8_t{0}) != 0 ? 1 : 0;
       }
     }
   }
@@ -328,7 +328,8 @@ void connect_mesh(RunState& run) {
     // (On the way it may have become a tilted one.)
     run.found.slidable = mesh.plane.aligned ? std::move(run.found.slidable) : Slidable{};
   }
-  input.quadratic_triangles = std::ssize(mesh.quadratics);
+  input.quadratic_quadrilaterals = mesh.count_quadratic_quads();
+  input.quadratic_triangles = std::ssize(mesh.quadratics) - input.quadratic_quadrilaterals;
   input.middle_nodes = std::ssize(mesh.middles);
   result.topology = run.found.found_by;
   const MeshFacts facts{.vertices = input.vertices,

@@ -123,10 +123,10 @@ std::vector<std::string> warnings_of_invalid(const PipelineResult& result, Metho
   }
   if (result.quadratic_after && result.quadratic_after->invalid > 0) {
     const QuadraticQuality& after = *result.quadratic_after;
-    warnings.push_back(fmt::format(
-        "{} of {} triangles of six nodes {} not valid ({} before); middles nearer to the middles of their sides make "
-        "them so",
-        after.invalid, after.elements, after.invalid == 1 ? "is" : "are", result.quadratic_before->invalid));
+    warnings.push_back(
+        fmt::format("{} of {} {} {} not valid ({} before); middles nearer to the middles of their sides make them so",
+                    after.invalid, after.elements, quadratic_words(after).second, after.invalid == 1 ? "is" : "are",
+                    result.quadratic_before->invalid));
   }
   return warnings;
 }

@@ -17,7 +17,7 @@ namespace trismooth {
 
 namespace {
 
-/// What holds each vertex. Nothing holds what has slid, and a middle is held where its side's ends are.
+/// What holds each vertex. Nothing holds what has slid, and a middle is held where its corners are.
 std::vector<std::uint8_t> holds_of(const RunState& run) {
   std::vector<std::uint8_t> holds = run.found.fixed;
   if (run.slide != Slide::off) {
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> holds_of(const RunState& run) {
     holds[v] = holds[run.mesh.merged[v]];
   }
   for (const MiddleNode& middle : run.mesh.middles) {
-    const bool follows = std::ranges::any_of(middle.ends, [&](std::int32_t end) { return holds[end] == 0; });
+    const bool follows = std::ranges::any_of(middle.followed(), [&](std::int32_t v) { return holds[v] == 0; });
     if (follows) {
       holds[middle.vertex] = 0;
     }

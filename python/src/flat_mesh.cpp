@@ -141,48 +141,22 @@ class Document {
   std::vector<std::unique_ptr<HostArray>> arrays_;  ///< whose numbers the document views
 };
 
-/// Arrays have triangles of six nodes, or other elements: what there is less of becomes other cells.
-void keep_one_kind(ElementCells& cells) {
-  const std::size_t all = cells.elements.size();
-  const std::size_t quadratic = cells.quadratics.size();
-  if (quadratic == 0 || quadratic == all) {
-    return;
-  }
-  const bool keeps_six = quadratic > all - quadratic;
-  const std::string left_kind(keeps_six ? kind_of_elements(cells) : "triangle");
-  std::vector<std::int32_t> left;
-  auto next = cells.quadratics.begin();
-  for (std::size_t e = 0; e < all; ++e) {
-    const bool has_six = next != cells.quadratics.end() && std::cmp_equal(next->triangle, e);
-    if (has_six != keeps_six) {
-      left.push_back(static_cast<std::int32_t>(e));
-      for (const std::int32_t v : cells.elements[e]) {
-        cells.in_other_cell[static_cast<std::size_t>(v)] = 1;
-      }
-      for (std::size_t k = 0; has_six && k < 3; ++k) {
-        cells.in_other_cell[static_cast<std::size_t>(next->middles[k])] = 1;
-      }
-    }
-    next += has_six ? 1 : 0;
-  }
-  leave_out(cells, left);
-  cells.other_cells += std::ssize(left);
-  cells.notes.push_back(counted(left.size(), left_kind, left_kind + "s") +
-                        (keeps_six ? " of order 1" : " of six nodes") + " among more " +
-                        (keeps_six ? "of six nodes" : "of order 1") + ": kept as they are, their vertices held fixed");
-}
-
-/// The nodes of the elements, row by row: three, or four with -1 in the last place of a triangle, or six.
+/// The nodes of the elements, row by row, -1 behind those of an element with fewer: three columns where all are
+/// triangles, four where quadrilaterals are among them, six of triangles of six nodes alone, and nine of all others.
 nb::object nodes_of(const ElementCells& cells) {
-  const bool has_six = !cells.quadratics.empty();
-  const std::size_t columns = has_six ? 6 : cells.elements.are_triangles() ? 3 : 4;
+  const bool has_six_all = cells.elements.are_triangles() && cells.quadratics.size() == cells.elements.size();
+  const std::size_t columns = !cells.quadratics.empty()        ? (has_six_all ? 6 : 9)
+                              : cells.elements.are_triangles() ? 3
+                                                               : 4;
   std::vector<std::int32_t> nodes;
   nodes.reserve(columns * cells.elements.size());
+  auto quadratic = cells.quadratics.begin();
   for (std::size_t e = 0; e < cells.elements.size(); ++e) {
     const auto corners = cells.elements[e];
     nodes.insert(nodes.end(), corners.begin(), corners.end());
-    if (has_six) {
-      nodes.insert(nodes.end(), cells.quadratics[e].middles.begin(), cells.quadratics[e].middles.end());
+    if (quadratic != cells.quadratics.end() && std::cmp_equal(quadratic->element, e)) {
+      std::ranges::copy_if(quadratic++->middles, std::back_inserter(nodes),
+                           [](std::int32_t v) { return v != no_corner; });
     }
     nodes.resize(columns * (e + 1), no_corner);
   }
@@ -317,12 +291,11 @@ nb::dict flat_mesh(std::size_t vertex_count, nb::handle types, nb::handle sizes,
                                   "of these cells are quadrilaterals, which are") +
                           " smoothed where nothing slides");
   }
-  keep_one_kind(cells);
   if (cells.elements.empty() && cells.held_quads > 0) {
     raise_value_error("slide", "nothing slides in a mesh of quadrilaterals alone; leave it out");
   }
   if (cells.elements.empty()) {
-    raise_value_error("points", "it has no triangles, and no quadrilaterals of four nodes");
+    raise_value_error("points", "it has no triangles and no quadrilaterals, of corners or with middles of sides");
   }
   nb::dict flat;
   flat["triangles"] = nodes_of(cells);

@@ -245,6 +245,12 @@ PointView packed_points(std::byte* numbers, std::size_t size, std::size_t compon
                                      : rows(reinterpret_cast<double*>(numbers));
 }
 
+/// -1, or of unsigned numbers the largest.
+template <class T>
+static bool is_no_corner(T number) {
+  return number == static_cast<T>(no_corner);
+}
+
 TriangleArray::TriangleArray(const HostArray& array)
     : first_(array.data()), is_wide_(array.item_size() == sizeof(std::int64_t)), is_signed_(array.kind() == 'i') {
   if (array.dimensions() == 1 && array.extent(0) == 0) {
@@ -259,19 +265,42 @@ TriangleArray::TriangleArray(const HostArray& array)
   if (!is_integer(array)) {
     array.raise_type("integers are needed, not " + array.type_text());
   }
-  const auto is_taken = [](std::size_t numbers) { return numbers == 3 || numbers == 4 || numbers == 6; };
+  const auto is_taken = [](std::size_t numbers) {
+    return numbers == 3 || numbers == 4 || numbers == 6 || numbers == 8 || numbers == 9;
+  };
   if (array.dimensions() != 2 || !is_taken(array.extent(1))) {
     array.raise_value("shape " + array.shape_text() +
-                      "; expected (M, 3), (M, 4) with quadrilaterals, or (M, 6) for triangles of six nodes" +
+                      "; expected (M, 3), (M, 4) with quadrilaterals, (M, 6) for triangles of six nodes, or (M, 9) "
+                      "with quadrilaterals of eight or nine" +
                       transposed(array, "triangles", 3));
   }
-  if (array.extent(1) == 4 && array.kind() == 'u' && array.item_size() < sizeof(std::uint32_t)) {
-    array.raise_type("unsigned integers of 8 or 16 bits have no -1, which the last one of a triangle is: int32 has");
+  if (array.extent(1) != 3 && array.extent(1) != 6 && array.kind() == 'u' &&
+      array.item_size() < sizeof(std::uint32_t)) {
+    array.raise_type(
+        "unsigned integers of 8 or 16 bits have no -1, which is behind the last one of a triangle: int32 has");
   }
   size_ = array.extent(0);
   nodes_ = array.extent(1);
   row_stride_ = array.stride(0);
   column_stride_ = array.stride(1);
+  copy_unless_taken(array);
+  if (nodes_ > 6) {
+    corners_.reserve(4 * size_);
+    for_each_row([&](std::size_t /*element*/, const auto& number) {
+      std::size_t count = 0;
+      while (count < nodes_ && !is_no_corner(number(count))) {
+        ++count;
+      }
+      const bool is_triangle = count == 3 || count == 6;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const bool is_there = k < count && !(is_triangle && k == 3);
+        corners_.push_back(is_there ? static_cast<std::int64_t>(number(k)) : no_corner);
+      }
+    });
+  }
+}
+
+void TriangleArray::copy_unless_taken(const HostArray& array) {
   const auto size = static_cast<std::ptrdiff_t>(array.item_size());
   const bool is_aligned = reinterpret_cast<std::uintptr_t>(first_) % array.item_size() == 0 &&
                           row_stride_ % size == 0 && column_stride_ % size == 0;
@@ -308,31 +337,45 @@ auto TriangleArray::with_rows(const Visit& visit) const {
                     : visit(rows(reinterpret_cast<const std::uint32_t*>(first_)));
 }
 
+/// visit(element, number) for each, where number(k) is its k-th one.
+template <class Visit>
+void TriangleArray::for_each_row(const Visit& visit) const {
+  with_rows([&]<class T>(const NumberRows<const T>& rows) {
+    for (std::size_t e = 0; e < rows.rows; ++e) {
+      const std::byte* const row =
+          reinterpret_cast<const std::byte*>(rows.first) + static_cast<std::ptrdiff_t>(e) * rows.row_stride;
+      visit(e, [&](std::size_t k) {
+        return *reinterpret_cast<const T*>(row + static_cast<std::ptrdiff_t>(k) * rows.column_stride);
+      });
+    }
+    return 0;
+  });
+}
+
 IndexView TriangleArray::corners() const {
+  if (nodes_ > 6) {
+    return IndexView(
+        NumberRows<const std::int64_t>{corners_.data(), size_, 4, 4 * sizeof(std::int64_t), sizeof(std::int64_t)});
+  }
   return with_rows([](auto rows) {
     rows.columns = rows.columns == 4 ? 4 : 3;
     return IndexView(rows);
   });
 }
 
-std::vector<std::int32_t> TriangleArray::six_nodes(std::int64_t vertex_count) const {
-  std::vector<std::int32_t> numbers;
-  numbers.reserve(6 * size_);
-  with_rows([&]<class T>(const NumberRows<const T>& rows) {
-    for (std::size_t t = 0; t < rows.rows; ++t) {
-      for (std::size_t k = 0; k < rows.columns; ++k) {
-        const T number = *reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(rows.first) +
-                                                     static_cast<std::ptrdiff_t>(t) * rows.row_stride +
-                                                     static_cast<std::ptrdiff_t>(k) * rows.column_stride);
-        if (!std::in_range<std::int32_t>(number)) {
-          throw_no_such_vertex(static_cast<std::int64_t>(t), std::to_string(number), vertex_count);
-        }
-        numbers.push_back(static_cast<std::int32_t>(number));
+std::vector<ElementNodes> TriangleArray::element_nodes(std::int64_t vertex_count) const {
+  std::vector<ElementNodes> elements(size_);
+  for_each_row([&](std::size_t e, const auto& number) {
+    elements[e].fill(no_corner);
+    for (std::size_t k = 0; k < nodes_; ++k) {
+      const auto node = number(k);
+      if (!is_no_corner(node) && !std::in_range<std::int32_t>(node)) {
+        throw_no_such_vertex(static_cast<std::int64_t>(e), std::to_string(node), vertex_count);
       }
+      elements[e][k] = is_no_corner(node) ? no_corner : static_cast<std::int32_t>(node);
     }
-    return 0;
   });
-  return numbers;
+  return elements;
 }
 
 std::vector<std::uint8_t> vertex_flags(nb::handle object, const std::string& argument, std::size_t vertex_count) {

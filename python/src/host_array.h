@@ -83,8 +83,9 @@ class PointArray {
 /// The rows of `numbers`, which lie as PointArray::copy_to() gives them.
 PointView packed_points(std::byte* numbers, std::size_t size, std::size_t components, Storage storage);
 
-/// Vertex numbers of triangles of three or six nodes, or of elements of four, of any integer type, as the library takes
-/// them: of four the last of a triangle is -1.
+/// Vertex numbers of elements, of any integer type, as the library takes them: three of triangles; four of triangles
+/// and quadrilaterals, -1 behind those of a triangle; six of triangles with middles; eight or nine of any of these,
+/// with -1 behind them (see ElementNodes).
 class TriangleArray {
  public:
   /// Raises for another shape or type. Views the array, or copies it where its numbers are of a type, or lie in a way,
@@ -93,15 +94,20 @@ class TriangleArray {
 
   std::size_t size() const { return size_; }
   std::size_t nodes() const { return nodes_; }
+  /// Whether some may have nodes in the middle of their sides.
+  bool may_have_middles() const { return nodes_ >= 6; }
   /// Corners: of triangles of six nodes the first three; four where quadrilaterals may be among them.
   IndexView corners() const;
-  /// All numbers of triangles of six nodes. Throws MeshError for one that is none of the vertices and has no place in
+  /// All numbers, where there may be middles. Throws MeshError for one that is none of the vertices and has no place in
   /// 32 bits.
-  std::vector<std::int32_t> six_nodes(std::int64_t vertex_count) const;
+  std::vector<ElementNodes> element_nodes(std::int64_t vertex_count) const;
 
  private:
+  void copy_unless_taken(const HostArray& array);
   template <class Visit>
   auto with_rows(const Visit& visit) const;
+  template <class Visit>
+  void for_each_row(const Visit& visit) const;
 
   std::size_t size_;
   std::size_t nodes_;
@@ -111,6 +117,7 @@ class TriangleArray {
   bool is_wide_;
   bool is_signed_;
   std::vector<std::int64_t> copied_;
+  std::vector<std::int64_t> corners_;  ///< four of each, where there are eight or nine numbers
 };
 
 /// One flag a vertex, from an array of bool for each vertex or from vertex numbers. Empty for None. Raises ValueError

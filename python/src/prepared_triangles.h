@@ -46,8 +46,9 @@ class PreparedTriangles {
                const SmoothingOptions& otherwise, const Make& make) {
     const HostArray numbers(triangles_object, "triangles");
     const TriangleArray triangles(numbers);
-    if (triangles.nodes() == 6) {
-      numbers.raise_value("a " + std::string(what_) + " is for triangles of three nodes; smooth() takes those of six");
+    if (triangles.may_have_middles()) {
+      numbers.raise_value("a " + std::string(what_) +
+                          " is for elements of corners alone; smooth() takes those with middles of sides");
     }
     const ConstraintArrays held(constraints, vertex_count_, triangles.size());
     CallOptions call = parse_options(arguments, otherwise);

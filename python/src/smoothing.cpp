@@ -42,8 +42,8 @@ Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb:
   CallOptions call = parse_options(arguments);
   SmoothingOptions& options = call.smoothing;
   options.mean_ratio.target_lengths = held.sizes();
-  if (triangles.nodes() == 6 && call.slide.along != Slide::off) {
-    raise_value_error("slide", "is for triangles of three nodes; those of six have middles on their sides");
+  if (triangles.may_have_middles() && call.slide.along != Slide::off) {
+    raise_value_error("slide", "is for elements of corners alone; these have nodes in the middle of their sides");
   }
   Interruption interruption(progress);
   Interruption* const current = &interruption;
@@ -57,8 +57,8 @@ Outcome smooth_arrays(nb::handle points_object, nb::handle triangles_object, nb:
   }
   return smooth_into(points_array, out, working, mesh_quality, options.threads, accept,
                      [&](const PointView& view, Outcome& outcome) {
-                       if (triangles.nodes() == 6) {
-                         const auto nodes = triangles.six_nodes(static_cast<std::int64_t>(points.size()));
+                       if (triangles.may_have_middles()) {
+                         const auto nodes = triangles.element_nodes(static_cast<std::int64_t>(points.size()));
                          outcome.smoothing = trismooth::smooth_quadratic(view, nodes, all, options);
                        } else {
                          outcome.smoothing = trismooth::smooth(view, corners, all, options);

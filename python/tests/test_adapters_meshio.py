@@ -230,7 +230,7 @@ def test_periodic_vertices_slide_as_one() -> None:
 def test_quadratic_triangles_do_not_slide() -> None:
     q = quadratic_grid()
     mesh = mesh_of([("triangle6", q.triangles)], q.points)
-    with pytest.raises(ValueError, match="^slide: is for triangles of three nodes"):
+    with pytest.raises(ValueError, match="^slide: is for elements of corners alone"):
         smooth(mesh, slide="straight")
     held = smooth(q.points, q.triangles, lines=edges(G.middle_column), links=[[G.vertex(2, 2), G.vertex(3, 3)]])
     on_lines = [*G.middle_column, G.vertex(2, 2), G.vertex(3, 3)]

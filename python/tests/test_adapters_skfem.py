@@ -130,7 +130,7 @@ def test_boundaries_are_lines_where_vertices_slide() -> None:
     assert not moved(mesh, fixed.mesh)[column[7]]
     none = smooth(parts, slide="straight", fixed=False)
     assert np.array_equal(none.mesh.p.T, smooth(G.points, G.triangles, slide="straight").points)
-    with pytest.raises(ValueError, match="^slide: is for triangles of three nodes"):
+    with pytest.raises(ValueError, match="^slide: is for elements of corners alone"):
         smooth(mesh2(), slide="straight")
 
 

@@ -139,7 +139,7 @@ CASES = [
     ({"links": [[0, len(POINTS)]]}, ValueError, "links: vertex "),
     ({"links": [0, 1]}, ValueError, "links: shape (2,)"),
     ({"links": [["a", "b"]], "slide": "straight"}, TypeError, "links: "),
-    ({"triangles": [[0, 1, 5, 6, 2, 7]], "slide": "curves"}, ValueError, "slide: is for triangles of three nodes"),
+    ({"triangles": [[0, 1, 5, 6, 2, 7]], "slide": "curves"}, ValueError, "slide: is for elements of corners alone"),
     ({"progress": 5}, TypeError, "progress"),
     ({"stream": 3}, TypeError, "stream"),
     ({"inplace": True}, TypeError, "inplace"),

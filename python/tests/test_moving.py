@@ -295,7 +295,7 @@ def test_arrays_that_do_not_fit_are_refused_and_leave_the_points_alone():
         np.testing.assert_array_equal(wrong, kept)
     with pytest.raises(ValueError, match="start: .*reference"):
         mesh.follow(points, start="now")
-    with pytest.raises(ValueError, match="a moving mesh is for triangles of three nodes"):
+    with pytest.raises(ValueError, match="a moving mesh is for elements of corners alone"):
         trismooth.MovingMesh(points, np.zeros((2, 6), dtype=int) + np.arange(6))
     with pytest.raises(ValueError, match="nan|finite"):
         trismooth.MovingMesh(points * np.nan, triangles)

@@ -70,6 +70,14 @@ def _detached(array: Any) -> Any:
     return array.detach() if library_of(array) == "torch" else array
 
 
+def element_nodes(nodes: np.ndarray) -> np.ndarray:
+    """The numbers as int64, -1 where an element has no node, which unsigned numbers say by their largest."""
+    numbers: np.ndarray = nodes.astype(np.int64)
+    if nodes.dtype.kind == "u":
+        numbers[nodes == np.iinfo(nodes.dtype).max] = -1
+    return numbers
+
+
 def labels(array: Any, argument: str, of_what: str) -> np.ndarray:
     """Labels of any type, texts as well, as integers of 32 bits: equal ones where labels are equal; one each `of_what`."""
     values = on_host(array, argument)

@@ -20,7 +20,7 @@ from ._support import NO_FILES
 Path = Union[str, "os.PathLike[str]"]
 
 #: VTK's types of cells.
-_TRIANGLE, _QUADRILATERAL, _QUADRATIC_TRIANGLE = 5, 9, 22
+_TRIANGLE, _QUADRILATERAL, _QUADRATIC_TRIANGLE, _QUADRATIC_QUADRILATERAL, _BIQUADRATIC = 5, 9, 22, 23, 28
 
 
 class FileResult(Result):
@@ -40,17 +40,25 @@ class FileResult(Result):
     __slots__ = ("report", "warnings", "losses")
 
     def __init__(self, outcome: Any, mesh: Mesh, report: Dict[str, Any]) -> None:
-        triangles, quadrilaterals = mesh.triangles, mesh.quadrilaterals
+        kinds = [mesh.triangles, mesh.quadratic_triangles]
         if report["input"]["quadrilaterals"] > 0:
-            elements = np.vstack([np.pad(triangles, ((0, 0), (0, 1)), constant_values=-1), quadrilaterals])
-        else:
-            elements = triangles if len(triangles) > 0 else mesh.quadratic_triangles
-        super().__init__(outcome.outcome, mesh.points, elements)
+            kinds += [mesh.quadrilaterals, mesh.quadratic_quadrilaterals]
+        super().__init__(outcome.outcome, mesh.points, _in_one_array([nodes for nodes in kinds if len(nodes) > 0]))
         self.mesh = mesh
         self.report = report
         self.notes = _said(outcome)
         self.warnings: List[str] = [in_python(warning) for warning in outcome.warnings]
         self.losses: List[str] = [in_python(loss) for loss in outcome.losses]
+
+
+def _in_one_array(kinds: List[np.ndarray]) -> np.ndarray:
+    """Elements of several numbers of nodes, as :func:`trismooth.smooth` takes them."""
+    if not kinds:
+        return np.empty((0, 3), dtype=np.int32)
+    most = max(nodes.shape[1] for nodes in kinds)
+    columns = most if len(kinds) == 1 or most <= 4 else 9
+    padded = [np.pad(nodes, ((0, 0), (0, columns - nodes.shape[1])), constant_values=-1) for nodes in kinds]
+    return np.vstack(padded)
 
 
 def _said(outcome: Any) -> List[str]:
@@ -71,7 +79,7 @@ def _errors_in_python() -> Iterator[None]:
 class Mesh:
     """A mesh that was read from a file, with all that the file holds. Made by :func:`trismooth.read`.
 
-    Regions, fixed vertices, planes, quadratic triangles and fields are found as the program finds them: see
+    Regions, fixed vertices, planes, quadratic elements and fields are found as the program finds them: see
     docs/command_line.md.
     """
 
@@ -121,6 +129,13 @@ class Mesh:
     def quadrilaterals(self) -> np.ndarray:
         """The quadrilaterals of four nodes, int32 of shape (M, 4), in the file's order."""
         return self._mesh.cells(_QUADRILATERAL, 4)
+
+    @property
+    def quadratic_quadrilaterals(self) -> np.ndarray:
+        """The quadrilaterals of eight and of nine nodes, int32 of shape (M, 9): corners, then middles of the sides 01, 12,
+        23 and 30, then the centre, -1 where there is none. Those of eight come first."""
+        eight = self._mesh.cells(_QUADRATIC_QUADRILATERAL, 8)
+        return np.vstack([np.pad(eight, ((0, 0), (0, 1)), constant_values=-1), self._mesh.cells(_BIQUADRATIC, 9)])
 
     @property
     def cell_types(self) -> np.ndarray:

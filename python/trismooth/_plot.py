@@ -122,7 +122,7 @@ def show(
     ----------
     points : array of floats, shape (N, 2) or (N, 3); or a mesh as for :func:`trismooth.smooth`
     triangles : array of integers, shape (M, 3), (M, 4) or (M, 6)
-        As for :func:`trismooth.quality`. Sides of quadratic triangles are drawn as curves; the colour is that of the corners' triangle.
+        As for :func:`trismooth.quality`. Sides with a node in their middle are drawn as curves; the colour is that of the corners' element.
     regions, window
         As for :func:`trismooth.plot`.
     title : str, optional
@@ -202,8 +202,7 @@ def _drawing(name: str, points: Any, triangles: Any, regions: Any) -> _Drawing:
         if len(labels) != len(nodes):
             raise ValueError(f"regions: {len(labels)} labels for {len(nodes)} triangles")
     corners = _corners(nodes)
-    middles = nodes[:, 3:] if nodes.shape[1] == 6 else None
-    return _Drawing(name, _sides(plane, corners, middles), _outline(corners, labels), measured.shape, measured.summary)
+    return _Drawing(name, _sides(plane, nodes, corners), _outline(corners, labels), measured.shape, measured.summary)
 
 
 def _on_host(array: Any, argument: str) -> np.ndarray:
@@ -216,22 +215,30 @@ def _on_host(array: Any, argument: str) -> np.ndarray:
 
 def _corners(nodes: np.ndarray) -> np.ndarray:
     """Return the corners of each element: where there are four of each, the third of a triangle twice."""
-    if nodes.shape[1] != 4:
+    if nodes.shape[1] in (3, 6):
         return nodes[:, :3]
-    corners = nodes.astype(np.int64)
-    # The largest of 32 bits is the -1 of unsigned numbers.
-    is_triangle = (corners[:, 3] == -1) | (corners[:, 3] == np.iinfo(np.uint32).max)
+    numbers = _arrays.element_nodes(nodes)
+    corners: np.ndarray = numbers[:, :4].copy()
+    is_triangle = np.isin((numbers >= 0).sum(axis=1), (3, 6))
     corners[is_triangle, 3] = corners[is_triangle, 2]
     return corners
 
 
-def _sides(points: np.ndarray, corner_nodes: np.ndarray, middle_nodes: Optional[np.ndarray]) -> np.ndarray:
+def _sides(points: np.ndarray, nodes: np.ndarray, corner_nodes: np.ndarray) -> np.ndarray:
     """Return the points of each side of each element, from corner to corner."""
     corners = points[corner_nodes]
     ends = np.roll(corners, -1, axis=1)
-    if middle_nodes is None:
+    if nodes.shape[1] < 6:
         return np.stack([corners, ends], axis=2)
-    middles = points[middle_nodes]
+    middles = (corners + ends) / 2
+    numbers = _arrays.element_nodes(nodes)
+    counts = (numbers >= 0).sum(axis=1)
+    # (Where there are four corners of each, the third side of a triangle of six nodes is the last.)
+    for count in np.intersect1d(counts, (6, 8, 9)):
+        rows = np.flatnonzero(counts == count)
+        first = 3 if count == 6 else 4
+        sides = [*range(first)] if count > 6 else [0, 1, corner_nodes.shape[1] - 1]
+        middles[np.ix_(rows, sides)] = points[numbers[rows, first : 2 * first]]
     # The quadratic curve through corner, middle and corner.
     t = np.linspace(0, 1, _PARTS_OF_SIDE + 1)[:, None]
     corners, middles, ends = corners[:, :, None], middles[:, :, None], ends[:, :, None]

@@ -82,10 +82,10 @@ def quality(points: Any, triangles: Any = None, *, threads: int = 0) -> Quality:
     Parameters
     ----------
     points : array of float64 or float32, shape (N, 2) or (N, 3); or a mesh as for :func:`trismooth.smooth`
-    triangles : array of integers, shape (M, 3), (M, 4) or (M, 6)
-        In either direction: what the majority of a component's triangles is counts as positive. Of triangles of six
-        nodes the corners count. With four numbers of each, corners in turn, quadrilaterals are among them; the last of
-        a triangle is -1. An element that is listed again has the values of the first and counts once. Of a mesh of
+    triangles : array of integers, shape (M, 3), (M, 4), (M, 6) or (M, 9)
+        In either direction: what the majority of a component's triangles is counts as positive. Of elements
+        with nodes in the middle of their sides the corners count. With four numbers of each, corners in turn,
+        quadrilaterals are among them; the last of a triangle is -1. With nine, elements of any number of nodes. An element that is listed again has the values of the first and counts once. Of a mesh of
         another package the triangles alone count.
     threads : int
         0: all. The result does not depend on it.

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Optional, Tuple
+from typing import Dict, FrozenSet, List, Optional, Tuple
 
 import numpy as np
 
@@ -33,7 +33,7 @@ class Repeats:
         self.place = np.cumsum(is_kept) - 1
         self.place[self._copies] = self.place[self._firsts]
         count = len(pairs)
-        name = "element" if triangles.shape[1] == 4 else "triangle"
+        self._kind = name = "triangle" if triangles.shape[1] in (3, 6) else "element"
         self.notes = [
             f"{count} {name}{' is' if count == 1 else 's are'} listed again (the first is {self._copies[0]}, which has "
             f"the corners of {self._firsts[0]}): {'it is' if count == 1 else 'each is'} counted and smoothed once, as it "
@@ -72,10 +72,10 @@ class Repeats:
             if constraints.other_cells is not None:
                 given = _arrays.on_host(constraints.other_cells, "other_cells")
                 mask |= _core.vertex_mask(given, "other_cells", n_points)
-            mask[others.ravel()] = True
+            mask[np.concatenate(others)] = True
             constraints = constraints._replace(other_cells=mask)
             self.notes.append(
-                f"{len(others)} of the triangles that are listed again {'has' if len(others) == 1 else 'have'} other "
+                f"{len(others)} of the {self._kind}s that are listed again {'has' if len(others) == 1 else 'have'} other "
                 "middles of sides: their vertices are held"
             )
         if constraints.regions is None:
@@ -101,15 +101,26 @@ class Repeats:
             _core.renumbered(outcome.before, self.kept), _core.renumbered(outcome.after, self.kept)
         )
 
-    def _nodes_of_others(self) -> np.ndarray:
-        """The nodes of those copies that have six, not the same ones on their sides."""
-        if self._triangles.shape[1] != 6:
-            return np.empty((0, 3), dtype=np.int64)
-        rows = [self._triangles[numbers] for numbers in (self._copies, self._firsts)]
-        # The middle across from each corner, by ascending corners.
-        copies, firsts = (np.take_along_axis(row[:, [4, 5, 3]], np.argsort(row[:, :3], axis=1), axis=1) for row in rows)
-        others: np.ndarray = rows[0][(copies != firsts).any(axis=1)]
-        return others
+    def _nodes_of_others(self) -> List[np.ndarray]:
+        """The nodes of those copies that have others in the middle of their sides, or in the centre."""
+        if self._triangles.shape[1] < 6:
+            return []
+        nodes = _arrays.element_nodes(self._triangles)
+        return [
+            nodes[copy][nodes[copy] >= 0]
+            for copy, first in zip(self._copies, self._firsts)
+            if not _middles(nodes[copy]).items() <= _middles(nodes[first]).items()
+        ]
+
+
+def _middles(nodes: np.ndarray) -> Dict[FrozenSet[int], int]:
+    """The node in the middle of each side, by the side's ends, and that in the centre, by all corners."""
+    numbers = [int(number) for number in nodes if number >= 0]
+    n_corners = 3 if len(numbers) in (3, 6) else 4
+    corners, others = numbers[:n_corners], numbers[n_corners:]
+    middles = {frozenset((corners[i], corners[(i + 1) % n_corners])): middle for i, middle in enumerate(others[:n_corners])}
+    middles.update({frozenset(corners): centre for centre in others[n_corners:]})
+    return middles
 
 
 def find_repeats(triangles: np.ndarray, n_points: int) -> Optional[Repeats]:

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -71,10 +70,8 @@ class KindGatherer {
       gather(lane);
     }
     measure_(static_cast<int>(count_), lanes_);
-    if constexpr (std::same_as<Corners, Triangle>) {
-      if (nodes_ != nullptr) {
-        judge_nodes();
-      }
+    if (nodes_ != nullptr) {
+      judge_nodes();
     }
     visit_(lanes_, elements_, count_);
     count_ = 0;

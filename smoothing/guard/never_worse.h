@@ -18,8 +18,8 @@ namespace trismooth {
 class Halo;
 class Workers;
 
-/// Nodes beside the corners of elements, in the middle of sides: they go with the corners, and an element that was
-/// valid with them and is not any more offends, however good the triangle of its corners is.
+/// Nodes beside the corners of elements, in the middle of sides or of quadrilaterals: they go with the corners, and an
+/// element that was valid with them and is not any more offends, however good that of its corners is.
 class FollowingNodes {
  public:
   FollowingNodes() = default;
@@ -31,7 +31,7 @@ class FollowingNodes {
   virtual void follow(std::int32_t corner) = 0;
   /// Whether the element with these corners, in any order, was valid and is not any more. `is_turned`: it is turned
   /// over now. From any thread.
-  virtual bool is_spoiled(const Triangle& corners, bool is_turned) const = 0;
+  virtual bool is_spoiled(std::span<const std::int32_t> corners, bool is_turned) const = 0;
 };
 
 /// What the guard took back.
@@ -58,7 +58,7 @@ struct GuardOutcome {
 /// `halo`: of a part of a mesh; null: it is the whole. The parts make the rounds together. `held` are those of its
 /// ghosts then, and what went back are vertices of the part.
 ///
-/// `nodes`: those that follow the vertices, of triangles alone; null: none do.
+/// `nodes`: those that follow the vertices; null: none do.
 GuardOutcome keep_never_worse(const RingView& rings, std::span<const Point2<double>> before,
                               std::span<Point2<double>> after, Workers& workers, const NumberLists& held = {},
                               Halo* halo = nullptr, FollowingNodes* nodes = nullptr);

@@ -98,7 +98,8 @@ TEST_CASE("an unknown name is answered with the valid ones") {
 
 TEST_CASE("a mesh without quadratic triangles has none that are invalid") {
   CHECK(check_gate(parse_gate("invalid_quadratic==0"), distinct_report()).passed);
-  CHECK_FALSE(check_gate(parse_gate("invalid_quadratic == 0"), distinct_report(), trismooth::QuadraticQuality{2, 1, -1})
+  CHECK_FALSE(check_gate(parse_gate("invalid_quadratic == 0"), distinct_report(),
+                         trismooth::QuadraticQuality{.elements = 2, .invalid = 1, .min_jacobian = -1})
                   .passed);
 }
 
@@ -107,7 +108,8 @@ TEST_CASE("every name gives the number it says") {
   CHECK(gate_value("triangles", report) == 12345678);
   CHECK(gate_value("inverted", report) == 3);
   CHECK(gate_value("degenerate", report) == 4);
-  CHECK(gate_value("invalid_quadratic", report, trismooth::QuadraticQuality{10, 6, 0.5}) == 6);
+  CHECK(gate_value("invalid_quadratic", report,
+                   trismooth::QuadraticQuality{.elements = 10, .invalid = 6, .min_jacobian = 0.5}) == 6);
   trismooth::DeformedStep step;
   step.crossings = 2;
   step.overlaps = 5;

@@ -44,7 +44,7 @@ TEST_CASE("triangles of six nodes are the triangles of their corners, and their 
   REQUIRE(result.mesh.quadratics.size() == 2);
   REQUIRE(result.mesh.middles.size() == 5);
   CHECK(result.mesh.middles[2].vertex == 6);
-  CHECK(result.mesh.middles[2].ends == std::array<std::int32_t, 2>{0, 2});
+  CHECK(result.mesh.middles[2].corners == std::array<std::int32_t, 4>{0, 2, no_corner, no_corner});
   CHECK(result.named.empty());
   CHECK(result.mesh.in_other_cell == Bytes{0, 0, 0, 0, 1, 1, 1, 1, 1, 0});
 }
@@ -102,6 +102,45 @@ TEST_CASE(
   CHECK(result.mesh.elements.triangles().size() == 2);
   CHECK(result.mesh.middles.size() == 2);
   CHECK(result.mesh.in_other_cell == Bytes{1, 1, 0, 0, 1, 1, 1, 0, 0, 0});
+}
+
+/// A square of eight nodes beside one of nine; corners 0 to 5, middles 6 to 12, the centre 13.
+MeshDocument two_squares() {
+  MeshDocument document;
+  document.points = {0,   0, 0, 1, 0,   0, 2, 0,   0, 0, 1,   0, 1,   1, 0, 2,   1, 0, 0.5, 0,   0,
+                     1.5, 0, 0, 0, 0.5, 0, 1, 0.5, 0, 2, 0.5, 0, 0.5, 1, 0, 1.5, 1, 0, 1.5, 0.5, 0};
+  document.cells.append(cell_type::quadratic_quad, Numbers{0, 1, 4, 3, 6, 9, 11, 8});
+  document.cells.append(cell_type::biquadratic_quad, Numbers{1, 2, 5, 4, 7, 10, 12, 9, 13});
+  return document;
+}
+
+TEST_CASE("quadrilaterals of eight and nine nodes are those of their corners, and middles and the centre follow") {
+  const MeshDocument document = two_squares();
+  const Settled result = settled(document);
+  CHECK(result.mesh.count_quadrilaterals() == 2);
+  CHECK(result.mesh.count_quadratic_quads() == 2);
+  CHECK(result.mesh.other_cells == 0);
+  CHECK(result.mesh.notes.empty());
+  REQUIRE(result.mesh.middles.size() == 8);
+  CHECK(result.mesh.middles.back().vertex == 13);
+  CHECK(result.mesh.middles.back().corners == std::array<std::int32_t, 4>{1, 2, 5, 4});
+  CHECK(result.mesh.in_other_cell == Bytes{0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1});
+}
+
+TEST_CASE("a centre that something else needs stays, and so do the corners around it") {
+  for (const bool is_named : {false, true}) {
+    MeshDocument document = two_squares();
+    if (!is_named) {
+      document.cells.append(cell_type::vertex, Numbers{13});
+    }
+    const Settled result = settled(document, is_named ? Bytes{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1} : Bytes{});
+    CHECK(result.mesh.middles.size() == 7);
+    CHECK((is_named ? result.named : result.mesh.in_other_cell)[1] == 1);
+    for (const std::size_t corner : {1U, 2U, 4U, 5U}) {
+      CHECK((is_named ? result.named : result.mesh.in_other_cell)[corner] == 1);
+    }
+    CHECK((is_named ? result.named : result.mesh.in_other_cell)[0] == 0);
+  }
 }
 
 TEST_CASE("a triangle of six nodes that repeats a corner is kept as another cell") {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -424,20 +425,59 @@ TEST_CASE("cohesive elements of Abaqus keep their thickness, and a note says so"
   CHECK(run_pipeline(options).smoothing->moved_vertices > 0);
 }
 
-TEST_CASE("quadrilaterals of eight and nine nodes are kept, and named") {
+TEST_CASE("quadrilaterals of cubic sides are kept, and named") {
   MeshDocument document = document_of(MixedMesh(4, 4, 0.1, 3, 0));
   const auto first = static_cast<std::int32_t>(document.point_count());
-  document.points.insert(document.points.end(),
-                         {9, 0, 0, 10, 0, 0, 10, 1, 0, 9, 1, 0, 9.5, 0, 0, 10, 0.5, 0, 9.5, 1, 0, 9, 0.5, 0});
-  std::vector<std::int32_t> eight(8);
-  for (std::size_t i = 0; i < eight.size(); ++i) {
-    eight[i] = first + static_cast<std::int32_t>(i);
+  std::vector<std::int32_t> sixteen(16);
+  for (std::int32_t i = 0; i < 16; ++i) {
+    document.points.insert(document.points.end(), {9.0 + i % 4, static_cast<double>(i / 4), 0});
+    sixteen[static_cast<std::size_t>(i)] = first + i;
   }
-  document.cells.append(cell_type::quadratic_quad, eight);
+  document.cells.append(cell_type::lagrange_quad, sixteen);
   const PipelineResult result = smooth_document(document, options_of(Method::smart));
   CHECK(result.input.other_cells == 1);
-  CHECK(any_says(result.notes, "1 of these cells is a quadrilateral of six, eight, nine or more nodes"));
+  CHECK(any_says(result.notes, "1 of these cells is a quadrilateral of six nodes, or of more than nine"));
   CHECK(any_says(result.notes, "of other types than triangle and quadrilateral"));
+}
+
+TEST_CASE("quadrilaterals of eight nodes are smoothed, their middles follow, and the report counts them") {
+  MeshDocument document = document_of(MixedMesh(6, 6, 0.25, 3, 0));
+  const MeshDocument corners = document;
+  document.cells = {};
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+  for (std::size_t cell = 0; cell < corners.cells.size(); ++cell) {
+    std::vector<std::int32_t> nodes(corners.cells[cell].begin(), corners.cells[cell].end());
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto edge = std::minmax(nodes[i], nodes[(i + 1) % 4]);
+      const auto [found, is_new] = middles.emplace(edge, static_cast<std::int32_t>(document.point_count()));
+      for (std::size_t axis = 0; is_new && axis < 3; ++axis) {
+        document.points.push_back((document.points[3 * static_cast<std::size_t>(edge.first) + axis] +
+                                   document.points[3 * static_cast<std::size_t>(edge.second) + axis]) /
+                                  2);
+      }
+      nodes.push_back(found->second);
+    }
+    document.cells.append(cell_type::quadratic_quad, nodes);
+  }
+  const MeshDocument before = document;
+  const PipelineResult result = smooth_document(document, options_of(Method::smart));
+  CHECK(result.input.quadratic_quadrilaterals == 36);
+  CHECK(result.input.quadratic_triangles == 0);
+  CHECK(result.input.middle_nodes == 84);
+  CHECK(result.smoothing->moved_vertices > 15);
+  REQUIRE(result.quadratic_after);
+  CHECK(result.quadratic_after->quadrilaterals == 36);
+  CHECK(result.quadratic_after->invalid == 0);
+  for (const auto& [edge, middle] : middles) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto at = [&](std::int32_t v) { return document.points[3 * static_cast<std::size_t>(v) + axis]; };
+      REQUIRE(at(middle) == Approx((at(edge.first) + at(edge.second)) / 2).margin(1e-14));
+    }
+  }
+  document = before;
+  PipelineOptions held = options_of(Method::smart);
+  held.quads = Quads::hold;
+  CHECK_THROWS_AS(smooth_document(document, held), ReadError);
 }
 
 }  // namespace trismooth::quadrilaterals_test

@@ -14,7 +14,8 @@ TEST_CASE("quadratic triangles are counted, the invalid ones in the orientation 
   const std::vector<Point2<double>> points{{0, 0},   {1, 0},     {1, 1},   {0, 1},  {0.5, 0},
                                            {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 0.5}};
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 3, 2}};
-  const std::vector<QuadraticTriangle> elements{{0, {4, 5, 6}}, {1, {8, 7, 6}}};
+  const std::vector<QuadraticElement> elements{{0, {4, 5, 6, no_corner, no_corner}},
+                                               {1, {8, 7, 6, no_corner, no_corner}}};
   const std::vector<std::uint8_t> reversed{0, 1};
   const auto good = quadratic_quality({points, triangles, reversed, 0}, elements, 1);
   CHECK(good.elements == 2);

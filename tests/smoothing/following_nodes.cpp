@@ -27,7 +27,7 @@ class SpoilingNodes final : public trismooth::FollowingNodes {
       : element_(element), before_(before), after_(after) {}
 
   void follow(std::int32_t corner) override { followed.push_back(corner); }
-  bool is_spoiled(const Triangle& corners, bool is_turned) const override {
+  bool is_spoiled(std::span<const std::int32_t> corners, bool is_turned) const override {
     return !is_turned && std::ranges::is_permutation(corners, element_) &&
            std::ranges::any_of(element_, [this](std::int32_t v) { return !(after_[v] == before_[v]); });
   }

@@ -25,9 +25,10 @@ class FlatMesh:
     ----------
     points : ndarray, shape (N, 2) or (N, 3)
         Coordinates, in the precision of the mesh.
-    triangles : ndarray of int, shape (M, 3), (M, 4) or (M, 6)
+    triangles : ndarray of int, shape (M, 3), (M, 4), (M, 6) or (M, 9)
         Corners of the elements: triangles, or with four quadrilaterals too, and -1 in the last place of a triangle. With
-        six nodes triangles, corners and then the middles of the sides 01, 12, 20.
+        six nodes triangles, corners and then the middles of the sides 01, 12, 20; with nine elements of any number of
+        nodes, -1 behind them.
     regions : ndarray of int, shape (M,), optional
         A label for each element. Vertices between two labels are held.
     fixed : ndarray of bool, shape (N,), optional
