@@ -31,6 +31,15 @@ constexpr std::size_t node_count(const ElementNodes& nodes) {
   return count;
 }
 
+/// A triangle among elements of both kinds.
+constexpr MixedElement as_mixed(const Triangle& triangle) {
+  return {triangle[0], triangle[1], triangle[2], no_corner};
+}
+/// An element that is listed so already.
+constexpr MixedElement as_mixed(const MixedElement& element) {
+  return element;
+}
+
 /// How many corners a Triangle or a MixedElement has.
 template <std::size_t most>
 constexpr int corner_count(const std::array<std::int32_t, most>& element) {
@@ -71,7 +80,7 @@ constexpr std::array<std::int32_t, most> canonical_corners(const std::array<std:
   static_assert(most == 4);
   if (element[3] == no_corner) {
     const Triangle corners = canonical_corners(Triangle{element[0], element[1], element[2]}, reversed);
-    return {corners[0], corners[1], corners[2], no_corner};
+    return as_mixed(corners);
   }
   std::size_t first = 0;
   for (std::size_t i = 1; i < 4; ++i) {

@@ -98,6 +98,12 @@ constexpr double shape(const QuadrilateralPoints& corners) {
   return shape(corners[0], corners[1], corners[2], corners[3]);
 }
 
+/// The shape quotient of an element of either kind, where points[v], or points(v), is vertex v.
+template <class Corners, class Points>
+constexpr double quotient_at(const Corners& corners, const Points& points) {
+  return with_kind(corners, [&](const auto& element) { return shape_quotient(points_of(element, points)); });
+}
+
 /// Twice the area, positive where the element is counter-clockwise.
 template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T doubled_area(const TrianglePoints<T>& corners) {

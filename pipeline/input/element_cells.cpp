@@ -66,10 +66,6 @@ bool stands_as(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return ordinary_type(type, vertices.size()) == wanted && !repeats_a_vertex(vertices);
 }
 
-MixedElement as_mixed(const Triangle& triangle) {
-  return {triangle[0], triangle[1], triangle[2], no_corner};
-}
-
 /// Lists elements one after the other: as triangles until the first quadrilateral comes.
 class ElementLister {
  public:
@@ -86,7 +82,8 @@ class ElementLister {
   void add(const MixedElement& quad, std::size_t cell) {
     if (!is_mixed_) {
       is_mixed_ = true;
-      std::ranges::transform(triangles_, std::back_inserter(mixed_), as_mixed);
+      std::ranges::transform(triangles_, std::back_inserter(mixed_),
+                             [](const Triangle& triangle) { return as_mixed(triangle); });
       triangles_ = {};
     }
     mixed_.push_back(quad);

@@ -210,17 +210,12 @@ class Guard {
   void add_elements(std::int32_t begin, std::int32_t end, const IsFree& is_free,
                     ElementGatherer<Visit>& gatherer) const {
     for (std::int32_t v = begin; v < end; ++v) {
-      const auto ring = rings_[v];
-      if (ring.empty()) {
+      if (!rings_.is_free(v)) {
         continue;
       }
       const auto comes_later = [&](std::int32_t other) { return other > v || !is_free(other); };
       const auto add = [&](const auto& corner) { gatherer.add_if(corner.all(comes_later), element_at(v, corner)); };
-      if (rings_.has_quadrilaterals()) {
-        for_elements_around(rings_.mixed(v), add);
-      } else {
-        for_elements_around(ring, add);
-      }
+      rings_.with_ring(v, [&](const auto& around) { for_elements_around(around, add); });
     }
   }
 

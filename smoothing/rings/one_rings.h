@@ -47,6 +47,11 @@ struct RingView {
     const std::span<const std::int32_t> ring = (*this)[vertex];
     return {ring, opposites.subspan(static_cast<std::size_t>(offsets[vertex]), ring.size())};
   }
+  /// What visit() returns of the ring: of its neighbours, or of a MixedRing where quadrilaterals may be in it.
+  template <class Visit>
+  decltype(auto) with_ring(std::int32_t vertex, const Visit& visit) const {
+    return has_quadrilaterals() ? visit(mixed(vertex)) : visit((*this)[vertex]);
+  }
   /// Complexity: linear in the ring where there are quadrilaterals at all.
   RingKind kind(std::int32_t vertex) const {
     if (!has_quadrilaterals()) {
