@@ -8,7 +8,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -69,7 +68,7 @@ SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, D
 
 class RingSmoother final : public PreparedSmoother {
  public:
-  /// Of triangles, or of MixedElements: without sliding and untangling then.
+  /// Of triangles, or of MixedElements: without sliding then.
   template <class Corners>
   RingSmoother(const MeshRings& mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
                const SmoothingOptions& options)
@@ -84,11 +83,9 @@ class RingSmoother final : public PreparedSmoother {
       smoother_->slide_on(mesh.slidable, mesh.slidable.flags_of_triangles(mesh.reversed));
     }
     is_to_slide_ = mesh.slidable.is_wanted();
-    if constexpr (std::is_same_v<Corners, Triangle>) {
-      if (options.untangles()) {
-        untangling_.emplace(mesh.fixed, elements, options, mesh.slidable);
-        reversed_ = mesh.reversed;
-      }
+    if (options.untangles()) {
+      untangling_.emplace(mesh.fixed, elements, options, mesh.slidable);
+      reversed_ = mesh.reversed;
     }
     if (options.measures_shape() || options.untangles()) {
       fixed_elements_ = FixedElements(elements, mesh.reversed, mesh.fixed, copier_.workers());
@@ -290,10 +287,9 @@ class CudaBackend final : public Backend {
       throw std::invalid_argument("execution '" + std::string(to_string(options.execution)) +
                                   "' smooths triangles alone: quadrilaterals by execution 'resident'");
     }
-    const SmoothingOptions of_sweeps = options_of_mixed(options);
     const DeviceScope scope(device_);
     require_device();
-    return on_device(std::make_unique<RingSmoother>(mesh, elements, local, of_sweeps));
+    return on_device(std::make_unique<RingSmoother>(mesh, elements, local, options));
   }
 
   std::unique_ptr<Follower> follower(const MeshAtRest& mesh, MeshRings rings,

@@ -2,11 +2,13 @@
 #include "trismooth/cuda/host_untangling.h"
 
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/element.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/invalid_triangles.h"
@@ -25,12 +27,17 @@ SmoothingOptions on_host(SmoothingOptions options) {
 
 }  // namespace
 
-HostUntangling::HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles,
+HostUntangling::HostUntangling(std::vector<std::uint8_t> fixed, const ElementList& elements,
                                const SmoothingOptions& options, Slidable slidable)
-    : fixed_(std::move(fixed)),
-      triangles_(triangles.begin(), triangles.end()),
-      options_(on_host(options)),
-      slidable_(std::move(slidable)) {}
+    : fixed_(std::move(fixed)), options_(on_host(options)), slidable_(std::move(slidable)) {
+  elements.visit([this]<class Corners>(std::span<const Corners> listed) {
+    listed_.emplace<std::vector<Corners>>(listed.begin(), listed.end());
+  });
+}
+
+ElementList HostUntangling::elements() const {
+  return std::visit([](const auto& listed) { return ElementList(listed); }, listed_);
+}
 
 void HostUntangling::aim_at(std::span<const Point2<double>> reference, const LocalFrame& frame) {
   reference_.assign(reference.begin(), reference.end());
@@ -43,32 +50,37 @@ SmoothingResult HostUntangling::smooth(std::span<Point2<double>> points, Storage
     const LocalPoints local = reference_.empty() ? entered(frame, points) : entered(frame_of_reference_, reference_);
     Constraints constraints;
     constraints.fixed = fixed_;
-    MeshRings mesh = find_mesh_rings(local.points, triangles_, constraints, workers);
+    MeshRings mesh = find_mesh_rings(local.points, elements(), constraints, workers);
     mesh.fixed = fixed_;  // with the reasons
     mesh.slidable = slidable_;
     reversed_ = mesh.reversed;
-    smoother_ = cpu_backend().prepare(mesh, triangles_, local.points, options_);
+    smoother_ = prepared(cpu_backend(), std::move(mesh), elements(), local.points, options_);
     if (!reference_.empty()) {
       smoother_->aim_at(reference_, frame_of_reference_);
       reference_ = {};
     }
   }
   SmoothingResult result = smoother_->smooth(points, storage, frame);
-  count_invalid(
-      triangles_, reversed_, [&](std::int32_t v) { return frame.enter(points[v]); }, workers, result);
-  result.backend_note = "the mesh has inverted triangles, which the CPU untangles";
+  elements().visit([&](const auto& listed) {
+    count_invalid(
+        listed, reversed_, [&](std::int32_t v) { return frame.enter(points[v]); }, workers, result);
+  });
+  result.backend_note = std::string("the mesh has inverted ") +
+                        (elements().are_triangles() ? "triangles" : "elements") + ", which the CPU untangles";
   return result;
 }
 
 UntanglingResult HostUntangling::not_tangled(std::span<const std::uint8_t> reversed,
                                              std::span<const Point2<double>> points, const LocalFrame& frame) const {
   UntanglingResult result;
-  for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    const Triangle corners = canonical_corners(triangles_[t], reversed[t] != 0);
-    if (!(shape_quotient(points_of(corners, [&](std::int32_t v) { return frame.enter(points[v]); })) > 0)) {
-      ++(all_are_fixed(corners, fixed_) ? result.inverted_fixed : result.inverted_after);
+  elements().visit([&](const auto& listed) {
+    for (std::size_t e = 0; e < listed.size(); ++e) {
+      const auto corners = canonical_corners(listed[e], reversed[e] != 0);
+      if (!(quotient_at(corners, [&](std::int32_t v) { return frame.enter(points[v]); }) > 0)) {
+        ++(all_are_fixed(corners, fixed_) ? result.inverted_fixed : result.inverted_after);
+      }
     }
-  }
+  });
   return result;
 }
 

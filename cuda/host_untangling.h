@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/options.h"
 #include "trismooth/smoothing/result.h"
@@ -22,7 +23,7 @@ namespace trismooth::cuda {
 class HostUntangling {
  public:
   /// `fixed`, `slidable`: as in MeshRings. Copies what it needs; all else waits for smooth().
-  HostUntangling(std::vector<std::uint8_t> fixed, std::span<const Triangle> triangles, const SmoothingOptions& options,
+  HostUntangling(std::vector<std::uint8_t> fixed, const ElementList& elements, const SmoothingOptions& options,
                  Slidable slidable = {});
 
   /// See PreparedSmoother::aim_at(): before the first smooth(). The reference orients the mesh then.
@@ -37,8 +38,10 @@ class HostUntangling {
                                const LocalFrame& frame) const;
 
  private:
+  ElementList elements() const;
+
   std::vector<std::uint8_t> fixed_;
-  std::vector<Triangle> triangles_;
+  std::variant<std::vector<Triangle>, std::vector<MixedElement>> listed_;
   SmoothingOptions options_;
   Slidable slidable_;
   std::vector<Point2<double>> reference_;  ///< what is aimed at; empty: the points of each call

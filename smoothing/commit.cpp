@@ -61,9 +61,9 @@ class Commit final : public FollowingNodes {
     }
     if (result.untangling && !(options.guard && result.untangling->inverted_before == 0)) {
       result.untangling->inverted_after =
-          inverted_triangles(mesh_.rings.rings.view(), mesh_.elements.triangles(), turned, after_, workers_);
+          inverted_elements(mesh_.rings.rings.view(), mesh_.elements, turned, after_, workers_);
       result.untangling->turned_components = turned.count;
-      result.untangling->turned = std::move(turned.triangles);
+      result.untangling->turned = std::move(turned.elements);
     }
     result.moved_vertices = settle();
     if (options.guard) {
@@ -158,10 +158,8 @@ class Commit final : public FollowingNodes {
   void guard(TurnedComponents& turned, SmoothingResult& result) {
     const RingView rings = mesh_.rings.rings.view();
     FollowingNodes* const nodes = mesh_.middles.empty() ? nullptr : this;
-    const GuardOutcome outcome = mesh_.elements.are_triangles()
-                                     ? keep_never_worse(rings, mesh_.elements.triangles(), mesh_.rings.reversed, turned,
-                                                        before(), after_, workers_, nodes)
-                                     : keep_never_worse(rings, before(), after_, workers_, {}, nullptr, nodes);
+    const GuardOutcome outcome =
+        keep_never_worse(rings, mesh_.elements, mesh_.rings.reversed, turned, before(), after_, workers_, nodes);
     result.guard_rounds += outcome.rounds;
     for (const std::int32_t v : outcome.reverted) {
       result.reverted.push_back({v, mesh_.swept[static_cast<std::size_t>(v)]});

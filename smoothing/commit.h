@@ -20,7 +20,7 @@ class Workers;
 /// A mesh whose vertices the sweeps have moved. All views are the caller's.
 struct SweptMesh {
   const MeshRings& rings;  ///< of the mesh as it was read, in the input's numbering
-  ElementList elements;    ///< not listed as triangles where the mesh has not been untangled alone
+  ElementList elements;
   std::span<const QuadraticElement> quadratics;  ///< those that have middles
   std::span<const MiddleNode> middles;           ///< those that follow their corners
   const LocalPoints& before;                     ///< all vertices as they were read, middles too

@@ -8,7 +8,10 @@
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/bulk_memory.h"
@@ -46,7 +49,7 @@ constexpr const char* untangling_over_parts =
 
 class CpuSmoother final : public PreparedSmoother {
  public:
-  /// Of triangles, or of MixedElements: without sliding and untangling then, and no part of another mesh.
+  /// Of triangles, or of MixedElements: without sliding then, and no part of another mesh.
   template <class Corners>
   CpuSmoother(MeshRings mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
               const SmoothingOptions& options, std::unique_ptr<SweepOffloads> offloads)
@@ -75,11 +78,9 @@ class CpuSmoother final : public PreparedSmoother {
       const std::vector<std::uint8_t> reversed = mesh.slidable.flags_of_triangles(mesh.reversed);
       slidable_ = PackedSlidable(std::move(mesh.slidable), reversed, std::move(numbers));
     }
-    if constexpr (std::is_same_v<Corners, Triangle>) {
-      if (options.untangles()) {
-        triangles_.assign(elements.begin(), elements.end());
-        reversed_ = std::move(mesh.reversed);
-      }
+    if (options.untangles()) {
+      elements_.emplace<std::vector<Corners>>(elements.begin(), elements.end());
+      reversed_ = std::move(mesh.reversed);
     }
     prepare_ms_ = watch.milliseconds();
   }
@@ -305,7 +306,7 @@ class CpuSmoother final : public PreparedSmoother {
     if (run.slide) {
       guard_with_lines(run, held);
     } else if (options_.guard && run.turned) {
-      list(run, keep_never_worse(rings.view(), triangles_, reversed_, run.turned->components, run.before, run.after,
+      list(run, keep_never_worse(rings.view(), elements(), reversed_, run.turned->components, run.before, run.after,
                                  workers_));
     } else if (options_.guard) {
       list(run, keep_never_worse(rings.view(), run.before, run.after, workers_));
@@ -385,12 +386,15 @@ class CpuSmoother final : public PreparedSmoother {
   }
 
   FixedElements fixed_elements(const TurnedComponents& turned) {
-    return {triangles_, turned_over(reversed_, turned), fixed_, workers_};
+    return elements().visit(
+        [&](const auto& listed) { return FixedElements(listed, turned_over(reversed_, turned), fixed_, workers_); });
   }
 
   Turned turn(TurnedComponents components) {
     Turned turned{std::move(components), rings_, {}};
-    turned.rings.neighbours = turned_neighbours(rings_.view(), triangles_, turned.components);
+    TurnedRings rings = turned_rings(rings_.view(), elements(), turned.components);
+    turned.rings.neighbours = std::move(rings.neighbours);
+    turned.rings.opposites = std::move(rings.opposites);
     turned.fixed_elements = fixed_elements(turned.components);
     return turned;
   }
@@ -401,13 +405,12 @@ class CpuSmoother final : public PreparedSmoother {
                       UntanglingResult& result) {
     // The guard lets nothing that was valid become inverted.
     result.inverted_after = options_.guard && result.inverted_before == 0 ? 0
-                            : halo() != nullptr
-                                ? sum_of_parts(halo(), inverted_triangles_of_part(rings_, after))
-                                : inverted_triangles(rings_.view(), triangles_, turned, after, workers_);
+                            : halo() != nullptr ? sum_of_parts(halo(), inverted_elements_of_part(rings_, after))
+                                                : inverted_elements(rings_.view(), elements(), turned, after, workers_);
     result.inverted_fixed =
         sum_of_parts(halo(), (turned.any() ? fixed_elements(turned) : fixed_elements_).inverted(input));
     result.turned_components = turned.count;
-    result.turned = turned.triangles;
+    result.turned = turned.elements;
   }
 
   /// Untangles `before` into `working`. Returns the mesh to go on with where it had to be turned over.
@@ -416,7 +419,7 @@ class CpuSmoother final : public PreparedSmoother {
                                       SmoothingResult& result) {
     result.untangling.emplace();
     const Stopwatch watch;
-    if (!any_part(halo(), inverted_triangles(rings_.view(), before, workers_) > 0)) {
+    if (!any_part(halo(), inverted_elements(rings_.view(), before, workers_) > 0)) {
       return std::nullopt;
     }
     // The guard of what is untangled measures all twice, and again what it takes back: found by experiment.
@@ -432,7 +435,7 @@ class CpuSmoother final : public PreparedSmoother {
       if (CallLimit* const limit = CallLimit::current(); limit != nullptr && !limit->is_lifted()) {
         sooner.emplace(options_.time_limit_seconds - guard_takes, *limit);
       }
-      done = untangle_mesh(rings_.view(), triangles_, reversed_, untangled, workers_);
+      done = untangle_mesh(rings_.view(), elements(), reversed_, untangled, workers_);
     }
     if (CallLimit* const limit = CallLimit::current()) {
       limit->lift();  // what is untangled is kept
@@ -446,6 +449,10 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   static Point2<T> narrow(Point2<double> point) {
     return {static_cast<T>(point.x), static_cast<T>(point.y)};
+  }
+
+  ElementList elements() const {
+    return std::visit([](const auto& listed) { return ElementList(listed); }, elements_);
   }
 
   /// Null: the sweeps are made here.
@@ -498,8 +505,9 @@ class CpuSmoother final : public PreparedSmoother {
   std::unique_ptr<SweepOffload<float>> in_single_;  ///< one of these, where sweeps are made elsewhere
   std::unique_ptr<SweepOffload<double>> in_double_;
   PackedSlidable slidable_;
-  FixedElements fixed_elements_;                                ///< where they are asked for
-  std::vector<Triangle> triangles_;                             ///< of the mesh, where it may have to be untangled
+  FixedElements fixed_elements_;  ///< where they are asked for
+  std::variant<std::vector<Triangle>, std::vector<MixedElement>>
+      elements_;                                                ///< of the mesh, where it may have to be untangled
   std::vector<std::uint8_t> reversed_;                          ///< as MeshRings::reversed, likewise
   std::vector<double> inverse_sizes_;                           ///< that are asked for, in a call; empty: none
   std::optional<ReferenceTargets<float>> in_single_reference_;  ///< see aim_at(); one of these at most
@@ -529,7 +537,7 @@ class CpuBackend final : public Backend {
                                                   std::span<const Point2<double>> local,
                                                   const SmoothingOptions& options) const override {
     require_available(options);
-    return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, options_of_mixed(options), nullptr);
+    return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, options, nullptr);
   }
 
  private:
@@ -542,17 +550,6 @@ class CpuBackend final : public Backend {
 };
 
 }  // namespace
-
-SmoothingOptions options_of_mixed(const SmoothingOptions& options) {
-  if (options.untangle == Untangle::on) {
-    throw std::invalid_argument(
-        "untangling is of triangles alone, and there are quadrilaterals; smoothing by method 'laplacian' first mends "
-        "many");
-  }
-  SmoothingOptions of_sweeps = options;
-  of_sweeps.untangle = Untangle::off;
-  return of_sweeps;
-}
 
 std::unique_ptr<PreparedSmoother> prepare_part(MeshRings mesh, std::span<const Triangle> triangles,
                                                std::span<const Point2<double>> local, const SmoothingOptions& options,

@@ -13,10 +13,6 @@ class SweepOffloads;
 /// The CPU backend. Layout and execution mean nothing to it; Order::unordered is refused.
 const Backend& cpu_backend();
 
-/// The options by which a mesh with quadrilaterals is swept, by any backend: nothing is untangled. Throws
-/// std::invalid_argument where that is asked for.
-SmoothingOptions options_of_mixed(const SmoothingOptions& options);
-
 /// Makes a part of a mesh (MeshRings::part) ready, whose sweeps `offloads` make: all else is done by the CPU, as its
 /// backend does it. For the backends of devices; arguments as those of Backend::prepare(). Collective over the parts.
 std::unique_ptr<PreparedSmoother> prepare_part(MeshRings mesh, std::span<const Triangle> triangles,

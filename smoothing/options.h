@@ -60,9 +60,9 @@ enum class Precision : std::uint8_t {
   single_precision,  ///< float32: faster on most devices; the caller's coordinates keep their type
 };
 
-/// Whether free vertices around inverted triangles are moved apart before the sweeps.
+/// Whether free vertices around inverted elements are moved apart before the sweeps.
 enum class Untangle : std::uint8_t {
-  automatic,  ///< with Method::mean_ratio, whose energy needs valid triangles
+  automatic,  ///< with Method::mean_ratio, whose energy needs valid elements
   off,
   on,
 };
@@ -234,7 +234,7 @@ struct SmoothingOptions {
   /// Whether the smallest shape of the mesh is found after every sweep: for a quality target or for the record.
   [[nodiscard]] bool measures_shape() const { return record_min_shape || target_quality.has_value(); }
 
-  /// Whether inverted triangles are untangled before the sweeps.
+  /// Whether inverted elements are untangled before the sweeps.
   [[nodiscard]] bool untangles() const {
     return untangle == Untangle::on || (untangle == Untangle::automatic && method == Method::mean_ratio);
   }

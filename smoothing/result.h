@@ -63,7 +63,7 @@ struct SmoothingTimings {
   double commit = 0;        ///< the never-worse guard
 };
 
-/// What the untangling before the sweeps did. Triangles are counted that are inverted or degenerate.
+/// What the untangling before the sweeps did. Elements are counted that are inverted or degenerate.
 struct UntanglingResult {
   std::int64_t inverted_before = 0;     ///< with a free vertex, in the input
   std::int64_t inverted_untangled = 0;  ///< of these, after the untangling: never more
@@ -73,7 +73,7 @@ struct UntanglingResult {
   /// turned over, so that what was valid in them is inverted and the other way round. `inverted_before` counts what it
   /// was before that.
   std::int32_t turned_components = 0;
-  std::vector<std::uint8_t> turned{};  ///< one byte a triangle, 1 where it is of these components; empty: there is none
+  std::vector<std::uint8_t> turned{};  ///< one byte an element, 1 where it is of these components; empty: there is none
 };
 
 /// Whether nobody stopped it: no caller, no clock.
@@ -118,7 +118,7 @@ struct SmoothingResult {
   std::int64_t reverted_vertices = 0;  ///< vertices that the guard took back
   std::int64_t guard_rounds = 0;       ///< rounds of the guard that took vertices back
   std::int64_t free_vertices = 0;      ///< vertices that nothing holds fixed, nor to a line
-  std::int64_t quadrilaterals = 0;     ///< among the elements: such a mesh is not untangled
+  std::int64_t quadrilaterals = 0;     ///< among the elements
   /// Elements that are inverted in the result, and those without area (quadrilaterals: with a corner in line): of all,
   /// with a free vertex or not, each as its component is oriented; of six nodes the corners. With the guard none that
   /// was valid is among them; where nothing is untangled (`untangling` is empty) sweeps mend some of the input's and

@@ -35,10 +35,9 @@ std::string with_argument(const std::string& message) {
   if (message.starts_with(sizes)) {
     return "size" + message.substr(sizes.size());
   }
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> arguments{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> arguments{{
       {"the paper's executions", "execution: "},
       {"vertices slide", "slide: "},
-      {"untangling", "untangle: "},
       {"backend '", ""},
   }};
   for (const auto& [begin, argument] : arguments) {

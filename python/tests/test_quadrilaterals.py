@@ -118,16 +118,31 @@ def test_inverted_quadrilaterals_that_are_left_are_told_of():
     # diagonal.
     points = np.array([[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [1.1, 1.1]], dtype=float)
     elements = np.array([[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]])
-    with pytest.warns(trismooth.MeshWarning, match="1 inverted element: meshes with quadrilaterals are not untangled; .*laplacian"):
-        result = trismooth.smooth(points, elements, fixed=[4], method="mean-ratio")
+    with pytest.warns(trismooth.MeshWarning, match="1 inverted element: nothing untangled the mesh; untangle=True does"):
+        result = trismooth.smooth(points, elements, fixed=[4])
     assert result.inverted == 1 and result.untangling is None
+    with pytest.warns(trismooth.MeshWarning, match="1 inverted element: the untangling could not mend more, and elements "):
+        result = trismooth.smooth(points, elements, fixed=[4], method="mean-ratio")
+    assert result.inverted == 1 and result.untangling["inverted_fixed"] == 1
+
+
+def test_inverted_quadrilaterals_are_untangled():
+    points = np.array([[x, y] for y in range(21) for x in range(21)], dtype=float)
+    inner = ((points > 0) & (points < 20)).all(axis=1)
+    points[inner] += np.random.default_rng(3).uniform(-0.9, 0.9, (inner.sum(), 2))
+    squares = np.array([[a, a + 1, a + 22, a + 21] for a in range(20 * 21 - 1) if a % 21 < 20])
+    assert (trismooth.quality(points, squares)["shape"] <= 0).sum() > 40
+    for options in ({"untangle": True}, {"method": "mean-ratio"}):
+        result = trismooth.smooth(points, squares, **options)
+        assert (trismooth.quality(result.points, squares)["shape"] > 0).all()
+        assert result.untangling["inverted_before"] > 40 and result.untangling["inverted_after"] == 0
+        np.testing.assert_array_equal(result.points[~inner], points[~inner])
 
 
 def test_what_quadrilaterals_cannot_have_is_refused_by_name():
     points, elements = mixed_mesh()
     before = points.copy()
     refused = (
-        ({"untangle": True}, "^untangle: untangling is of triangles alone"),
         ({"slide": "straight"}, "^slide: vertices slide along the lines of triangles"),
         ({"regions": [1, 2]}, "^regions: "),
     )

@@ -16,7 +16,7 @@ class NotComputed(AttributeError):
     """A quality that was not asked for: pass ``quality=True``."""
 
 
-NOT_MENDED = "the untangling could not mend more, and triangles that are held at all three vertices stay as they are"
+NOT_MENDED = "the untangling could not mend more, and elements whose vertices are all held stay as they are"
 
 
 def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
@@ -27,9 +27,7 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     found = [f"{count:,} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]
     if not found:
         return []
-    if outcome.quadrilaterals > 0:
-        why = "meshes with quadrilaterals are not untangled; smoothing by method='laplacian' first mends many, but where all corners are held"
-    elif outcome.untangling is None:
+    if outcome.untangling is None:
         why = "nothing untangled the mesh; untangle=True does"
     else:
         why = NOT_MENDED
@@ -250,7 +248,7 @@ class Result:
 
     @property
     def untangling(self) -> Optional[Dict[str, int]]:
-        """Counts of inverted triangles before and after, where they were untangled before the sweeps; else None."""
+        """Counts of inverted elements before and after, where they were untangled before the sweeps; else None."""
         return self._outcome.untangling
 
     @property

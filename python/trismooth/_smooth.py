@@ -55,7 +55,7 @@ def smooth(
         mesh itself, and ``regions`` and ``fixed`` may name arrays or sets of the mesh.
     triangles : array of integers, shape (M, 3), (M, 4), (M, 6) or (M, 9)
         Vertex numbers from 0, in either direction. With four, quadrilaterals are among them: the corners in turn, the
-        last of a triangle is -1; of arrays of the host alone. They are neither untangled nor slid along lines. Six are a
+        last of a triangle is -1; of arrays of the host alone. Their vertices do not slide along lines. Six are a
         quadratic triangle: the corners, then the middles of the sides 01, 12 and 20, which follow the ends of their
         sides. Nine are the nodes of any element of three, four, six, eight or nine, with -1 behind them: corners, middles
         of the sides, the centre, which follows the corners. One that is listed again, in whatever order, counts

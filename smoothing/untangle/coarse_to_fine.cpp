@@ -11,6 +11,7 @@
 #include "trismooth/base/machine/call_limit.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/rings/one_rings.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 #include "trismooth/smoothing/untangle/ring_kernel.h"
 #include "trismooth/smoothing/untangle/tutte.h"
 #include "trismooth/smoothing/untangle/untangling_newton.h"
@@ -19,22 +20,80 @@ namespace trismooth {
 
 namespace {
 
+/// Cuts each quadrilateral of a patch in two, so that no two edges have the same ends.
+class CutQuadrilaterals {
+ public:
+  explicit CutQuadrilaterals(const Patch& patch) : patch_(patch), rings_(patch.rings()), cuts_(patch.elements.size()) {
+    for (std::size_t e = 0; e < cuts_.size(); ++e) {
+      const auto& [a, b, c, d] = patch.elements[e];
+      if (d != no_corner) {
+        cuts_[e] = !are_joined(a, c) ? Cut::from_first : !are_joined(b, d) ? Cut::from_second : Cut::none;
+        are_cut_ = are_cut_ && cuts_[e] != Cut::none;
+      }
+    }
+  }
+
+  /// Whether there was a way for all of them.
+  bool are_cut() const { return are_cut_; }
+
+  /// The neighbours of a vertex that may move, counter-clockwise.
+  std::vector<std::int32_t> ring(std::int32_t v) const {
+    std::vector<std::int32_t> found;
+    const auto add = [&](const auto& places) {
+      found.push_back(rings_[v][static_cast<std::size_t>(places.next)]);
+      if (const std::int32_t opposite = across(v, places); opposite != no_corner) {
+        found.push_back(opposite);
+      }
+    };
+    rings_.with_ring(v, [&](const auto& ring) {
+      for_elements_around(
+          ring, [](int place) { return place; }, add);
+    });
+    return found;
+  }
+
+ private:
+  enum class Cut : std::uint8_t { none, from_first, from_second };
+
+  /// The other end of the cut that ends at v, where there is one; places as for_elements_around() has them.
+  std::int32_t across(std::int32_t v, const QuadrilateralCorner<int>& places) const {
+    const auto e = static_cast<std::size_t>(patch_.elements_around(v)[static_cast<std::size_t>(places.next)]);
+    const MixedElement& corners = patch_.elements[e];
+    const bool is_even = corners[0] == v || corners[2] == v;
+    return cuts_[e] == (is_even ? Cut::from_first : Cut::from_second) ? rings_.mixed(v)[places.opposite] : no_corner;
+  }
+  static std::int32_t across(std::int32_t /*v*/, const TriangleCorner<int>& /*places*/) { return no_corner; }
+
+  /// Whether there is an edge between them yet, as far as a ring has it.
+  bool are_joined(std::int32_t v, std::int32_t w) const {
+    if (v >= patch_.free_count) {
+      std::swap(v, w);
+    }
+    return v < patch_.free_count && std::ranges::count(ring(v), w) > 0;
+  }
+
+  const Patch& patch_;
+  RingView rings_;
+  std::vector<Cut> cuts_;  ///< of quadrilaterals; none of those that are still to be cut
+  bool are_cut_ = true;
+};
+
 /// A collapse of `vertex` into ring.front(); `ring` is what was around the vertex, counter-clockwise.
 struct Collapse {
   std::int32_t vertex = 0;
   std::vector<std::int32_t> ring;
 };
 
-/// The rings of a patch's free vertices, of which some have been collapsed into their neighbours.
+/// The rings of a patch's free vertices in triangles, of which some have been collapsed into their neighbours.
 class CollapsibleRings {
  public:
-  explicit CollapsibleRings(const Patch& patch)
+  CollapsibleRings(const Patch& patch, const CutQuadrilaterals& cut)
       : vertex_count_(patch.vertex_count()),
         alive_(patch.free_count),
         rings_(static_cast<std::size_t>(patch.free_count)),
         round_(static_cast<std::size_t>(patch.free_count), 0) {
     for (std::int32_t v = 0; v < patch.free_count; ++v) {
-      rings_[v].assign(patch.neighbours.begin() + patch.offsets[v], patch.neighbours.begin() + patch.offsets[v + 1]);
+      rings_[v] = cut.ring(v);
     }
   }
 
@@ -211,6 +270,7 @@ constexpr std::int32_t coarsest = 1000;
 constexpr std::int32_t coarsest_by_held = 2;
 constexpr int coarsest_steps = 150;
 constexpr int level_steps = 4;
+constexpr int quadrilateral_steps = 100;
 constexpr int smart_sweeps = 4;
 
 /// A ring as methods read it.
@@ -245,7 +305,11 @@ void move_to_mean_if_better(std::int32_t v, std::span<const std::int32_t> ring, 
 }  // namespace
 
 void untangle_coarse_to_fine(const Patch& patch, std::span<Point2<double>> points, Workers& workers) {
-  CollapsibleRings rings(patch);
+  const CutQuadrilaterals cut(patch);
+  if (!cut.are_cut()) {
+    return;
+  }
+  CollapsibleRings rings(patch, cut);
   rings.collapse_to(coarsest + coarsest_by_held * (patch.vertex_count() - patch.free_count));
   std::vector<Point2<double>> level_points;
   const auto improve = [&](bool is_coarsest) {
@@ -283,6 +347,9 @@ void untangle_coarse_to_fine(const Patch& patch, std::span<Point2<double>> point
           [&](std::int32_t v, std::span<const std::int32_t> ring) { move_to_mean_if_better(v, ring, points); });
     }
     improve(false);
+  }
+  if (patch.rings().has_quadrilaterals()) {
+    minimise_regularised(patch, points, quadrilateral_steps, workers);
   }
 }
 

@@ -15,9 +15,10 @@ class Workers;
 /// (minimise_regularised()); then the collapses are undone one by one. If no triangle is inverted, there is room for
 /// each vertex that comes back: the kernel of its ring is not empty (H. Shen, Z. Jiang, D. Zorin, D. Panozzo:
 /// Progressive embedding, 2019). So what is wrong with the mesh as a whole is mended where it is small. Shapes are
-/// improved in between.
+/// improved in between. Quadrilaterals are two triangles for all this, and brought down in energy at the end.
 ///
-/// `points`: one for each vertex of the patch; those of free vertices are not looked at, and get the result.
+/// `points`: one for each vertex of the patch; those of free vertices are not looked at, and get the result. They stay
+/// where quadrilaterals cannot be cut in two, since in either way an edge would be there twice.
 /// Complexity: the patch times the root of its size.
 void untangle_coarse_to_fine(const Patch& patch, std::span<Point2<double>> points, Workers& workers);
 

@@ -2,13 +2,58 @@
 #include "trismooth/smoothing/untangle/patch.h"
 
 #include <cstddef>
+#include <functional>
 
 #include "trismooth/quality/element.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 
 namespace trismooth {
 
+namespace {
+
+/// The number of an element that has one: its smallest corner, which comes first, finds it in its ring.
+template <class Corners>
+std::int32_t number_of(const Corners& element, const Patch& patch) {
+  const std::span<const std::int32_t> ring = patch.rings()[element.front()];
+  const std::span<const std::int32_t> around = patch.elements_around(element.front());
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i] == element[1] && ring[i + 1 == ring.size() ? 0 : i + 1] == element.back()) {
+      return around[i];
+    }
+  }
+  return -1;
+}
+
+}  // namespace
+
 PatchCutter::PatchCutter(const RingView& rings, std::int32_t vertex_count)
     : rings_(rings), number_(static_cast<std::size_t>(vertex_count), -1) {}
+
+void PatchCutter::copy_rings(Patch& patch) {
+  const auto numbered = [&](std::int32_t vertex) {
+    if (vertex == no_corner) {
+      return no_corner;
+    }
+    if (number_[vertex] < 0) {
+      number_[vertex] = patch.vertex_count();
+      patch.vertices.push_back(vertex);
+    }
+    return number_[vertex];
+  };
+  patch.offsets.assign(1, 0);
+  for (std::int32_t v = 0; v < patch.free_count; ++v) {
+    const std::int32_t vertex = patch.vertices[static_cast<std::size_t>(v)];
+    for (const std::int32_t neighbour : rings_[vertex]) {
+      patch.neighbours.push_back(numbered(neighbour));
+    }
+    if (rings_.has_quadrilaterals()) {
+      for (const std::int32_t opposite : rings_.mixed(vertex).opposites) {
+        patch.opposites.push_back(numbered(opposite));
+      }
+    }
+    patch.offsets.push_back(std::ssize(patch.neighbours));
+  }
+}
 
 Patch PatchCutter::cut(std::span<const std::int32_t> free) {
   Patch patch;
@@ -17,45 +62,27 @@ Patch PatchCutter::cut(std::span<const std::int32_t> free) {
   for (std::int32_t v = 0; v < patch.free_count; ++v) {
     number_[free[static_cast<std::size_t>(v)]] = v;
   }
-  patch.offsets.assign(1, 0);
-  for (const std::int32_t vertex : free) {
-    for (const std::int32_t neighbour : rings_[vertex]) {
-      if (number_[neighbour] < 0) {
-        number_[neighbour] = patch.vertex_count();
-        patch.vertices.push_back(neighbour);
-      }
-      patch.neighbours.push_back(number_[neighbour]);
-    }
-    patch.offsets.push_back(static_cast<std::int32_t>(patch.neighbours.size()));
-  }
+  copy_rings(patch);
 
-  // A triangle is numbered from its smallest corner; the others find it in that corner's ring.
+  // An element is numbered from its smallest corner, which may move.
   patch.around.assign(patch.neighbours.size(), -1);
+  const RingView rings = patch.rings();
   for (std::int32_t v = 0; v < patch.free_count; ++v) {
-    const std::int32_t begin = patch.offsets[v];
-    const std::int32_t end = patch.offsets[v + 1];
-    for (std::int32_t k = begin; k < end; ++k) {
-      const std::int32_t b = patch.neighbours[k];
-      const std::int32_t c = patch.neighbours[k + 1 == end ? begin : k + 1];
-      if (v < b && v < c) {
-        patch.around[k] = patch.triangle_count();
-        patch.triangles.push_back({v, b, c});
-        continue;
+    std::int32_t* number = patch.around.data() + patch.offsets[v];
+    const auto add = [&](const auto& corner) {
+      const auto element = from_smallest(element_at(v, corner), std::identity());
+      if (element.front() == v) {
+        *number = patch.element_count();
+        // From the corner on that the input numbers lowest, as everywhere: rounding gives slivers a sign that depends
+        // on it.
+        patch.elements.push_back(
+            as_mixed(from_smallest(element, [&](std::int32_t w) { return rings_.input(patch.vertices[w]); })));
+      } else {
+        *number = number_of(element, patch);
       }
-      const Triangle turned = canonical_corners(Triangle{v, b, c}, false);
-      const std::int32_t first = patch.offsets[turned[0]];
-      const std::int32_t last = patch.offsets[turned[0] + 1];
-      for (std::int32_t j = first; j < last; ++j) {
-        if (patch.neighbours[j] == turned[1] && patch.neighbours[j + 1 == last ? first : j + 1] == turned[2]) {
-          patch.around[k] = patch.around[j];
-          break;
-        }
-      }
-    }
-  }
-  // From the corner on that the input numbers lowest, as everywhere: rounding gives slivers a sign that depends on it.
-  for (Triangle& triangle : patch.triangles) {
-    triangle = from_smallest(triangle, [&](std::int32_t v) { return rings_.input(patch.vertices[v]); });
+      ++number;
+    };
+    rings.with_ring(v, [&](const auto& ring) { for_elements_around(ring, add); });
   }
   for (const std::int32_t vertex : patch.vertices) {
     number_[vertex] = -1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -9,31 +10,48 @@
 
 namespace trismooth {
 
+/// What a triangle is to look like: isosceles, of some height over its base.
+struct IdealTriangle {
+  /// How its corners come into t below (e: 1, -1/2, -1/2): by the height as a part of the base.
+  std::array<double, 3> into_t;
+  double area;    ///< where |p|^2 - |q|^2 (below) is 1: 3/8 of the base to the height
+  double weight;  ///< what it counts in the energy of a mesh
+
+  static const IdealTriangle equilateral;
+  /// The corner of a square, from there on, with the ends of its sides: a quadrilateral has four.
+  static const IdealTriangle corner;
+};
+inline constexpr IdealTriangle IdealTriangle::equilateral{
+    {0, 0.5 * std::numbers::sqrt3, -0.5 * std::numbers::sqrt3}, 0.25 * std::numbers::sqrt3, 1};
+inline constexpr IdealTriangle IdealTriangle::corner{{0, 0.5, -0.5}, 0.75, 0.5};
+
 /// The regularised energy of one triangle, finite where it is inverted, too (V. Garanzha, I. Kaporin, L. Kudryavtseva,
 /// F. Protais, N. Ray, D. Sokolov: Foldover-free maps in 50 lines of code, 2021):
 ///
 ///     f = S / (2 A* X) + lambda (1 + D^2) / X,   D = A / A*,   X = (D + sqrt(eps^2 + D^2)) / 2
 ///
-/// S / 2 = |J|^2 A* for the map J from the equilateral triangle of area A* to this one, A its area. With eps = 0 the
-/// first term is 2 / alpha; with eps > 0 both are smooth everywhere and large where D < 0.
+/// S / 2 = |J|^2 A* for the map J from the ideal triangle of area A* to this one, A its area. With eps = 0 the first
+/// term is 2 / alpha, or in the corner of a quadrilateral 2 / corner_shape(); with eps > 0 both are smooth everywhere
+/// and large where D < 0. All is times the weight of the ideal triangle.
 ///
-/// It is written in e = z0 - (z1 + z2) / 2 and t = sqrt(3)/2 J (z1 - z2), with J the turn by 90 degrees to the left:
-/// p = (e - t) / sqrt(3) is the part of the triangle that is similar to the ideal one, q = (e + t) / sqrt(3) the part
-/// that is similar to its mirror image. A = sqrt(3)/4 (|p|^2 - |q|^2), and f depends on |p|^2 and |q|^2 alone. So the
-/// Hessian splits into what is across p, across q and along both (2 x 2), and its positive part is found in closed
-/// form.
+/// It is written in e = z0 - (z1 + z2) / 2 and t = h J (z1 - z2), with h the height of the ideal triangle over its
+/// base, sqrt(3)/2 or 1/2, and J the turn by 90 degrees to the left: p = (e - t) / sqrt(3) is the part of the triangle
+/// that is similar to the ideal one, q = (e + t) / sqrt(3) the part that is similar to its mirror image. A is 3/(8 h)
+/// (|p|^2 - |q|^2), and f depends on |p|^2 and |q|^2 alone. So the Hessian splits into what is across p, across q and
+/// along both (2 x 2), and its positive part is found in closed form.
 struct RegularisedEnergy {
   double epsilon = 0;
   double size_weight = 0;  ///< lambda
 
-  /// Half the height that e stands for, and the like: what the coordinates of the corners come in by.
   static constexpr double root3 = std::numbers::sqrt3;
 
   /// A triangle in the coordinates of the energy.
   struct Shape {
     Point2<double> p;
     Point2<double> q;
-    double squared_p;  ///< times sqrt(3) / (4 A*), as squared_q: D is their difference
+    double scale;      ///< what |p|^2 - |q|^2 times this is D
+    double weight;     ///< of the ideal triangle
+    double squared_p;  ///< times scale, as squared_q: D is their difference
     double squared_q;
     double determinant;
   };
@@ -48,16 +66,18 @@ struct RegularisedEnergy {
     double tt[3];
   };
 
-  static Shape shape_of(Point2<double> z0, Point2<double> z1, Point2<double> z2, double target_area) {
+  static Shape shape_of(Point2<double> z0, Point2<double> z1, Point2<double> z2, double target_area,
+                        const IdealTriangle& ideal = IdealTriangle::equilateral) {
     const Point2<double> e{0.5 * ((z0.x - z1.x) + (z0.x - z2.x)), 0.5 * ((z0.y - z1.y) + (z0.y - z2.y))};
     const Point2<double> d = z1 - z2;
-    const Point2<double> t{-0.5 * root3 * d.y, 0.5 * root3 * d.x};
+    const Point2<double> t{ideal.into_t[2] * d.y, ideal.into_t[1] * d.x};
     Shape shape;
     shape.p = {(e.x - t.x) / root3, (e.y - t.y) / root3};
     shape.q = {(e.x + t.x) / root3, (e.y + t.y) / root3};
-    const double scale = 0.25 * root3 / target_area;
-    shape.squared_p = scale * squared_length(shape.p);
-    shape.squared_q = scale * squared_length(shape.q);
+    shape.scale = ideal.area / target_area;
+    shape.weight = ideal.weight;
+    shape.squared_p = shape.scale * squared_length(shape.p);
+    shape.squared_q = shape.scale * squared_length(shape.q);
     // Of cross(), not of p and q: that would lose the digits of a sliver.
     shape.determinant = 0.5 * cross(z1 - z0, z2 - z0) / target_area;
     return shape;
@@ -72,10 +92,11 @@ struct RegularisedEnergy {
 
   double value(const Shape& shape) const {
     const double x = regularised(shape.determinant);
-    return (2 * (shape.squared_p + shape.squared_q) + size_weight * (1 + shape.determinant * shape.determinant)) / x;
+    return shape.weight *
+           ((2 * (shape.squared_p + shape.squared_q) + size_weight * (1 + shape.determinant * shape.determinant)) / x);
   }
 
-  Derivatives derivatives(const Shape& shape, double target_area) const {
+  Derivatives derivatives(const Shape& shape) const {
     const double determinant = shape.determinant;
     const double root = root_of(determinant);
     const double x = regularised(determinant);
@@ -102,11 +123,11 @@ struct RegularisedEnergy {
     double across_q = 2 * f_q;
     make_positive(a, b, c, across_p, across_q);
 
-    const double scale = 0.25 * root3 / target_area;
+    const double scale = shape.weight * shape.scale;
     const Point2<double> unit_p = unit(shape.p);
     const Point2<double> unit_q = unit(shape.q);
     Derivatives result;
-    result.value = numerator / x;
+    result.value = shape.weight * (numerator / x);
     const double gradient_p = 2 * f_p * scale;
     const double gradient_q = 2 * f_q * scale;
     const Point2<double> by_p{gradient_p * shape.p.x, gradient_p * shape.p.y};

@@ -13,12 +13,12 @@ namespace trismooth {
 
 void tutte(const Patch& patch, std::span<Point2<double>> points, double tolerance, Workers& workers) {
   const auto free = points.first(static_cast<std::size_t>(patch.free_count));
-  const auto degree = [&](std::int32_t v) { return static_cast<double>(patch.offsets[v + 1] - patch.offsets[v]); };
+  const RingView rings = patch.rings();
+  const auto degree = [&](std::int32_t v) { return static_cast<double>(rings[v].size()); };
   // A row of the matrix times x, where held vertices are 0.
   const auto apply = [&](const Point2<double>* x, std::int32_t v) {
     Point2<double> sum{degree(v) * x[v].x, degree(v) * x[v].y};
-    for (std::int32_t k = patch.offsets[v]; k < patch.offsets[v + 1]; ++k) {
-      const std::int32_t neighbour = patch.neighbours[k];
+    for (const std::int32_t neighbour : rings[v]) {
       if (neighbour < patch.free_count) {
         sum.x -= x[neighbour].x;
         sum.y -= x[neighbour].y;
@@ -43,8 +43,7 @@ void tutte(const Patch& patch, std::span<Point2<double>> points, double toleranc
       [&](std::int32_t v) {
         Point2<double> pull{0, 0};
         Point2<double> load{0, 0};
-        for (std::int32_t k = patch.offsets[v]; k < patch.offsets[v + 1]; ++k) {
-          const std::int32_t neighbour = patch.neighbours[k];
+        for (const std::int32_t neighbour : rings[v]) {
           pull.x += points[neighbour].x - points[v].x;
           pull.y += points[neighbour].y - points[v].y;
           if (neighbour >= patch.free_count) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/triangle_view.h"
@@ -24,30 +25,37 @@ namespace {
 
 constexpr std::int64_t counting_grain = 4096;
 
-/// Calls visit(triangle) for every triangle around v whose free corner of the smallest number is v.
+/// Calls visit(corner) for the elements around v, which is free.
 template <class Visit>
-void for_own_triangles(const RingView& rings, std::int32_t v, const Visit& visit) {
+void for_corners_at(const RingView& rings, std::int32_t v, const Visit& visit) {
+  rings.with_ring(v, [&](const auto& ring) { for_elements_around(ring, visit); });
+}
+
+/// Calls visit(element) for every element around v whose free corner of the smallest number is v.
+template <class Visit>
+void for_own_elements(const RingView& rings, std::int32_t v, const Visit& visit) {
   if (!rings.is_free(v)) {
     return;
   }
-  for_elements_around(rings[v], [&](const auto& corner) {
+  for_corners_at(rings, v, [&](const auto& corner) {
     if (corner.all([&](std::int32_t other) { return other > v || !rings.is_free(other); })) {
       visit(element_at(v, corner));
     }
   });
 }
 
-/// The shape quotient of a triangle in canonical order: from the corner on that the input numbers lowest. So it has the
+/// The shape quotient of an element in canonical order: from the corner on that the input numbers lowest. So it has the
 /// same bits from every one of its vertices.
-double quotient_of(const Triangle& triangle, std::span<const Point2<double>> points, const RingView& rings) {
-  return shape_quotient(points_of(from_smallest(triangle, [&](std::int32_t v) { return rings.input(v); }), points));
+template <class Corners>
+double quotient_of(const Corners& element, std::span<const Point2<double>> points, const RingView& rings) {
+  return shape_quotient(points_of(from_smallest(element, [&](std::int32_t v) { return rings.input(v); }), points));
 }
 
-/// Triangles of a shape below this are mended with the inverted ones, where they have come about by that: rounding is
+/// Elements of a shape below this are mended with the inverted ones, where they have come about by that: rounding is
 /// enough to invert them again.
 constexpr double weak_quotient = 1e-4 / shape_constant;
 
-/// What is wrong with a set of triangles.
+/// What is wrong with a set of elements.
 struct Faults {
   std::int64_t inverted = 0;  ///< or degenerate
   std::int64_t weak = 0;      ///< nearly so, and worse than they came
@@ -56,7 +64,7 @@ struct Faults {
   friend bool operator<(const Faults& a, const Faults& b) {
     return a.inverted != b.inverted ? a.inverted < b.inverted : a.weak < b.weak;
   }
-  /// Counts a triangle by its quotient now and in the input.
+  /// Counts an element by its quotient now and in the input.
   void count(double quotient, double input) {
     if (!(quotient > 0)) {
       ++inverted;
@@ -120,7 +128,7 @@ class Untangler {
   /// What a part is worth.
   enum class Effort : std::uint8_t { embedding, refinement, energy, all };
 
-  /// Where that many triangles are faulty, a part of the mesh is hardly ever enough.
+  /// Where that many elements are faulty, a part of the mesh is hardly ever enough.
   bool is_much() const { return std::ssize(faulty_) > rings_.size() / 10; }
 
   static constexpr std::int32_t large_mesh = 50000;
@@ -129,10 +137,11 @@ class Untangler {
   static constexpr std::int64_t most_rings = 32;
   static constexpr std::int64_t all_rings = std::numeric_limits<std::int64_t>::max();
 
-  Faults faults_of(const Triangle& triangle) const {
+  template <class Corners>
+  Faults faults_of(const Corners& element) const {
     Faults faults;
-    if (const double now = quotient_of(triangle, points_, rings_); !(now >= weak_quotient)) {
-      faults.count(now, quotient_of(triangle, input_, rings_));
+    if (const double now = quotient_of(element, points_, rings_); !(now >= weak_quotient)) {
+      faults.count(now, quotient_of(element, input_, rings_));
     }
     return faults;
   }
@@ -142,34 +151,34 @@ class Untangler {
     std::ranges::sort(vertices, {}, [&](std::int32_t v) { return rings_.input(v); });
   }
 
-  /// All faulty triangles of the mesh.
+  /// All faulty elements of the mesh.
   void find_faulty() {
-    const auto look = [this](std::int64_t v, std::vector<Triangle>& found) {
-      for_own_triangles(rings_, static_cast<std::int32_t>(v), [&](const Triangle& triangle) {
-        if (faults_of(triangle).any()) {
-          found.push_back(triangle);
+    const auto look = [this](std::int64_t v, std::vector<MixedElement>& found) {
+      for_own_elements(rings_, static_cast<std::int32_t>(v), [&](const auto& element) {
+        if (faults_of(element).any()) {
+          found.push_back(as_mixed(element));
         }
       });
     };
-    faulty_ = joined_lists<Triangle>(rings_.size(), counting_grain, workers_, look);
+    faulty_ = joined_lists<MixedElement>(rings_.size(), counting_grain, workers_, look);
     count_faults();
   }
 
-  /// Of the faulty triangles of now.
+  /// Of the faulty elements of now.
   void count_faults() {
     faults_ = {};
-    for (const Triangle& triangle : faulty_) {
-      const Faults own = faults_of(triangle);
+    for (const MixedElement& element : faulty_) {
+      const Faults own = with_kind(element, [this](const auto& corners) { return faults_of(corners); });
       faults_.inverted += own.inverted;
       faults_.weak += own.weak;
     }
   }
 
-  /// The free corners of the faulty triangles, each once, in the order of the input.
+  /// The free corners of the faulty elements, each once, in the order of the input.
   std::vector<std::int32_t> corners() {
     std::vector<std::int32_t> found;
-    for (const Triangle& triangle : faulty_) {
-      for (const std::int32_t v : triangle) {
+    for (const std::span<const std::int32_t> element : ElementList(faulty_)) {
+      for (const std::int32_t v : element) {
         if (rings_.is_free(v) && listed_[v] == 0) {
           listed_[v] = 1;
           found.push_back(v);
@@ -187,18 +196,18 @@ class Untangler {
     }
   }
 
-  /// The faulty triangles around `moved` vertices, which were the corners of all faulty ones.
+  /// The faulty elements around `moved` vertices, which were the corners of all faulty ones.
   void find_faulty_around(std::span<const std::int32_t> moved) {
     for (const std::int32_t v : moved) {
       listed_[v] = 1;
     }
     faulty_.clear();
     for (const std::int32_t v : moved) {
-      for_elements_around(rings_[v], [&](const auto& corner) {
-        const Triangle triangle = element_at(v, corner);
+      for_corners_at(rings_, v, [&](const auto& corner) {
+        const auto element = element_at(v, corner);
         if (corner.all([&](std::int32_t other) { return other > v || listed_[other] == 0; }) &&
-            faults_of(triangle).any()) {
-          faulty_.push_back(triangle);
+            faults_of(element).any()) {
+          faulty_.push_back(as_mixed(element));
         }
       });
     }
@@ -217,34 +226,51 @@ class Untangler {
     points_[v] = {sum.x / count, sum.y / count};
   }
 
-  std::int64_t inverted_at(std::int32_t v) const {
-    std::int64_t inverted = 0;
-    for_elements_around(rings_[v], [&](const auto& corner) {
-      inverted += quotient_of(element_at(v, corner), points_, rings_) > 0 ? 0 : 1;
-    });
-    return inverted;
+  /// Whether the element around v is valid, as far as v decides it.
+  bool is_valid_at(std::int32_t v, const TriangleCorner<std::int32_t>& corner) const {
+    return quotient_of(element_at(v, corner), points_, rings_) > 0;
+  }
+  bool is_valid_at(std::int32_t v, const QuadrilateralCorner<std::int32_t>& corner) const {
+    const auto [next, opposite, previous] = corner;
+    // Of its opposite corner it is the other vertices that decide.
+    return turns_left(previous, v, next) && turns_left(v, next, opposite) && turns_left(opposite, previous, v);
+  }
+  bool turns_left(std::int32_t a, std::int32_t b, std::int32_t c) const {
+    return cross(points_[b] - points_[a], points_[c] - points_[b]) > 0;
+  }
+  bool are_valid_at(std::int32_t v) const {
+    bool are_valid = true;
+    for_corners_at(rings_, v, [&](const auto& corner) { are_valid = are_valid && is_valid_at(v, corner); });
+    return are_valid;
+  }
+
+  /// Adds to the ring what the place of the vertex has to see from the left for an element.
+  void add_edges(const TriangleCorner<std::int32_t>& corner) { ring_points_.push_back(points_[corner.next]); }
+  void add_edges(const QuadrilateralCorner<std::int32_t>& corner) {
+    ring_points_.push_back(points_[corner.next]);
+    ring_points_.push_back(points_[corner.opposite]);
+    chords_.push_back({points_[corner.next], points_[corner.previous]});
   }
 
   void move_to_kernel(std::int32_t v) {
-    if (inverted_at(v) == 0) {
+    if (are_valid_at(v)) {
       return;
     }
     ring_points_.clear();
-    for (const std::int32_t neighbour : rings_[v]) {
-      ring_points_.push_back(points_[neighbour]);
-    }
-    const auto centre = kernel_centre(ring_points_, scratch_);
+    chords_.clear();
+    for_corners_at(rings_, v, [this](const auto& corner) { add_edges(corner); });
+    const auto centre = kernel_centre(ring_points_, scratch_, chords_);
     if (!centre) {
       return;
     }
     const Point2<double> old = points_[v];
     points_[v] = *centre;
-    if (inverted_at(v) != 0) {
+    if (!are_valid_at(v)) {
       points_[v] = old;
     }
   }
 
-  /// Moves the corners of faulty triangles, one after the other, for some passes, and keeps the best of them.
+  /// Moves the corners of faulty elements, one after the other, for some passes, and keeps the best of them.
   template <class Move>
   void move_corners(const Move& move, int most_passes, std::int64_t& mended) {
     if (!faults_.any()) {
@@ -252,7 +278,7 @@ class Untangler {
     }
     const std::int64_t before = faults_.inverted;
     std::vector<Point2<double>> best_points(points_.begin(), points_.end());
-    std::vector<Triangle> best = faulty_;
+    std::vector<MixedElement> best = faulty_;
     Faults fewest = faults_;
     int passes_in_vain = 0;
     for (int pass = 0; pass < most_passes && faults_.any() && passes_in_vain < 2 && !CallLimit::is_over(); ++pass) {
@@ -275,7 +301,7 @@ class Untangler {
     mended += before - faults_.inverted;
   }
 
-  /// Cuts out the parts of the mesh within `rings` of faulty triangles and solves each by itself. Returns whether they
+  /// Cuts out the parts of the mesh within `rings` of faulty elements and solves each by itself. Returns whether they
   /// could not have been larger.
   bool solve_parts(std::int64_t rings, Effort effort) {
     std::vector<std::int32_t> near = corners();
@@ -287,12 +313,12 @@ class Untangler {
     for (std::int64_t ring = 0; ring < rings && !are_all; ++ring) {
       const std::size_t end = near.size();
       for (; expanded < end; ++expanded) {
-        for (const std::int32_t neighbour : rings_[near[expanded]]) {
-          if (rings_.is_free(neighbour) && listed_[neighbour] == 0) {
-            listed_[neighbour] = 1;
-            near.push_back(neighbour);
+        rings_.for_vertices_around(near[expanded], [&](std::int32_t other) {
+          if (rings_.is_free(other) && listed_[other] == 0) {
+            listed_[other] = 1;
+            near.push_back(other);
           }
-        }
+        });
       }
       are_all = near.size() == end;
     }
@@ -305,12 +331,12 @@ class Untangler {
       part.assign(1, seed);
       listed_[seed] = 2;
       for (std::size_t i = 0; i < part.size(); ++i) {
-        for (const std::int32_t neighbour : rings_[part[i]]) {
-          if (listed_[neighbour] == 1) {
-            listed_[neighbour] = 2;
-            part.push_back(neighbour);
+        rings_.for_vertices_around(part[i], [&](std::int32_t other) {
+          if (listed_[other] == 1) {
+            listed_[other] = 2;
+            part.push_back(other);
           }
-        }
+        });
       }
       solve(part, effort);
     }
@@ -319,21 +345,22 @@ class Untangler {
     return are_all;
   }
 
-  /// What is wrong with the patch where its points are `points`; `input`: the quotients of its triangles in the input.
+  /// What is wrong with the patch where its points are `points`; `input`: the quotients of its elements in the input.
   Faults faults_of(const Patch& patch, std::span<const Point2<double>> points, std::span<const double> input) const {
     Faults faults;
-    for (std::size_t t = 0; t < input.size(); ++t) {
-      faults.count(shape_quotient(points_of(patch.triangles[t], points)), input[t]);
+    for (std::size_t e = 0; e < input.size(); ++e) {
+      faults.count(quotient_at(patch.elements[e], points), input[e]);
     }
     return faults;
   }
 
-  /// Whether the triangles of the patch have a positive area in all: the held vertices alone decide that.
+  /// Whether the elements of the patch have a positive area in all: the held vertices alone decide that.
   static bool has_area(const Patch& patch, std::span<const Point2<double>> points) {
     double sum = 0;
     double size = 0;
-    for (const Triangle& triangle : patch.triangles) {
-      const double area = doubled_area(points_of(triangle, points));
+    for (const MixedElement& element : patch.elements) {
+      const double area =
+          with_kind(element, [&](const auto& corners) { return doubled_area(points_of(corners, points)); });
       sum += area;
       size += std::abs(area);
     }
@@ -355,8 +382,8 @@ class Untangler {
       return;
     }
     std::vector<double> input;
-    for (const Triangle& triangle : patch.triangles) {
-      input.push_back(shape_quotient(points_of(triangle, [&](std::int32_t v) { return input_[patch.vertices[v]]; })));
+    for (const MixedElement& element : patch.elements) {
+      input.push_back(quotient_at(element, [&](std::int32_t v) { return input_[patch.vertices[v]]; }));
     }
     const Faults before = faults_of(patch, points, input);
     std::vector<Point2<double>> best = points;
@@ -409,26 +436,27 @@ class Untangler {
   std::vector<Point2<double>> input_;
   Workers& workers_;
   UntangleOutcome outcome_;
-  std::vector<Triangle> faulty_;      ///< the faulty triangles of now
+  std::vector<MixedElement> faulty_;  ///< the faulty elements of now
   Faults faults_;                     ///< their number
   std::vector<std::uint8_t> listed_;  ///< marks of vertices, 0 between two uses
   PatchCutter cutter_;
   std::vector<Point2<double>> ring_points_;
+  std::vector<Chord> chords_;
   std::vector<Point2<double>> scratch_;
 };
 
 }  // namespace
 
-std::int64_t inverted_triangles(const RingView& rings, std::span<const Point2<double>> points, Workers& workers) {
+std::int64_t inverted_elements(const RingView& rings, std::span<const Point2<double>> points, Workers& workers) {
   return joined_sum(rings.size(), counting_grain, workers, [&](std::int64_t v) {
     std::int64_t inverted = 0;
-    for_own_triangles(rings, static_cast<std::int32_t>(v),
-                      [&](const Triangle& triangle) { inverted += quotient_of(triangle, points, rings) > 0 ? 0 : 1; });
+    for_own_elements(rings, static_cast<std::int32_t>(v),
+                     [&](const auto& element) { inverted += quotient_of(element, points, rings) > 0 ? 0 : 1; });
     return inverted;
   });
 }
 
-std::int64_t inverted_triangles_of_part(const PackedRings& rings, std::span<const Point2<double>> points) {
+std::int64_t inverted_elements_of_part(const PackedRings& rings, std::span<const Point2<double>> points) {
   const RingView view = rings.view();
   std::int64_t inverted = 0;
   for (std::int32_t v = 0; v < rings.free_count(); ++v) {
@@ -442,7 +470,7 @@ std::int64_t inverted_triangles_of_part(const PackedRings& rings, std::span<cons
 }
 
 UntangleOutcome untangle(const RingView& rings, std::span<Point2<double>> points, Workers& workers) {
-  if (inverted_triangles(rings, points, workers) == 0) {
+  if (inverted_elements(rings, points, workers) == 0) {
     return {};
   }
   return Untangler(rings, points, workers).run();

@@ -26,18 +26,18 @@ std::vector<Point2<double>> in_input_order(const RingView& rings, std::span<cons
   return ordered;
 }
 
-/// Per vertex of the rings that has one: 1 where its triangles are of components that are turned over. All of them are,
+/// Per vertex of the rings that has one: 1 where its elements are of components that are turned over. All of them are,
 /// then: those of a ring are of one component.
-std::vector<std::uint8_t> vertices_of(const RingView& rings, std::span<const Triangle> triangles,
-                                      std::span<const std::uint8_t> of_triangles) {
+std::vector<std::uint8_t> vertices_of(const RingView& rings, const ElementList& elements,
+                                      std::span<const std::uint8_t> of_elements) {
   std::int32_t last = -1;
-  for (const Triangle& triangle : triangles) {
-    last = std::max({last, triangle[0], triangle[1], triangle[2]});
+  for (const std::span<const std::int32_t> corners : elements) {
+    last = std::max(last, std::ranges::max(corners));
   }
   std::vector<std::uint8_t> of_input(static_cast<std::size_t>(last) + 1, 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (of_triangles[t] != 0) {
-      for (const std::int32_t v : triangles[t]) {
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    if (of_elements[e] != 0) {
+      for (const std::int32_t v : elements[e]) {
         of_input[v] = 1;
       }
     }
@@ -49,29 +49,27 @@ std::vector<std::uint8_t> vertices_of(const RingView& rings, std::span<const Tri
   return found;
 }
 
-double quotient(const Triangle& triangle, bool is_reversed, std::span<const Point2<double>> points) {
-  return shape_quotient(points_of(canonical_corners(triangle, is_reversed), points));
-}
-
 /// The components of a mesh as the input orients it. Points are in the input's numbering.
 class OrientedComponents {
  public:
-  OrientedComponents(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
-                     std::size_t vertex_count, Workers& workers)
-      : triangles_(triangles),
+  OrientedComponents(const ElementList& elements, std::span<const std::uint8_t> reversed, std::size_t vertex_count,
+                     Workers& workers)
+      : elements_(elements),
         reversed_(reversed),
-        components_(match_sides(static_cast<std::int32_t>(vertex_count), triangles, workers)) {}
+        components_(elements.visit([&](const auto& listed) -> TriangleComponents {
+          return match_sides(static_cast<std::int32_t>(vertex_count), listed, workers);
+        })) {}
 
   /// Those of a negative area, which is not that of rounding.
   std::vector<std::uint8_t> of_negative_area(std::span<const Point2<double>> points) const {
     std::vector<std::vector<double>> areas(count());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const Triangle corners = canonical_corners(triangles_[t], reversed_[t] != 0);
-      areas[component(t)].push_back(doubled_area(points_of(corners, points)));
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      areas[component(e)].push_back(
+          measured(e, false, points, [](const auto& corners) { return doubled_area(corners); }));
     }
     std::vector<std::uint8_t> found(count(), 0);
     for (std::size_t c = 0; c < found.size(); ++c) {
-      // In their own order: that in which triangles are listed must not matter.
+      // In their own order: that in which elements are listed must not matter.
       std::ranges::sort(areas[c]);
       double sum = 0;
       double size = 0;
@@ -85,31 +83,31 @@ class OrientedComponents {
   }
 
   /// Takes out of `turned`, one byte a component, those that are worse at `after`, turned over, than they were at
-  /// `before`; and those in which most triangles would be inverted, for then nobody would take them as turned. `nodes`:
+  /// `before`; and those in which most elements would be inverted, for then nobody would take them as turned. `nodes`:
   /// those that follow the vertices, or null.
   void take_out_worse(std::span<const Point2<double>> before, std::span<const Point2<double>> after,
                       const FollowingNodes* nodes, std::vector<std::uint8_t>& turned) const {
     std::vector<double> thresholds(count(), std::numeric_limits<double>::infinity());
     const auto for_turned = [&](const auto& visit) {
-      for (std::size_t t = 0; t < triangles_.size(); ++t) {
-        if (turned[component(t)] != 0) {
-          visit(t, component(t), quotient(triangles_[t], reversed_[t] != 0, before));
+      for (std::size_t e = 0; e < elements_.size(); ++e) {
+        if (turned[component(e)] != 0) {
+          visit(e, component(e), quotient(e, false, before));
         }
       }
     };
-    for_turned([&](std::size_t t, std::size_t c, double was) {
+    for_turned([&](std::size_t e, std::size_t c, double was) {
       const bool has_moved =
-          std::ranges::any_of(triangles_[t], [&](std::int32_t v) { return !(before[v] == after[v]); });
+          std::ranges::any_of(elements_[e], [&](std::int32_t v) { return !(before[v] == after[v]); });
       if (has_moved && was < thresholds[c]) {
         thresholds[c] = was;
       }
     });
     std::vector<std::uint8_t> is_worse(count(), 0);
     std::vector<std::int64_t> balance(count(), 0);
-    for_turned([&](std::size_t t, std::size_t c, double was) {
-      const double is = quotient(triangles_[t], reversed_[t] == 0, after);
+    for_turned([&](std::size_t e, std::size_t c, double was) {
+      const double is = quotient(e, true, after);
       balance[c] += (is > 0 ? 1 : 0) - (is < 0 ? 1 : 0);
-      if (offends(was, is, thresholds[c]) || (nodes != nullptr && nodes->is_spoiled(triangles_[t], true))) {
+      if (offends(was, is, thresholds[c]) || (nodes != nullptr && is_spoiled(e, *nodes))) {
         is_worse[c] = 1;
       }
     });
@@ -120,43 +118,59 @@ class OrientedComponents {
     }
   }
 
-  /// The triangles of each component that are inverted or degenerate, where those of `turned` are turned over.
+  /// The elements of each component that are inverted or degenerate, where those of `turned` are turned over.
   std::vector<std::int64_t> inverted(std::span<const Point2<double>> points,
                                      std::span<const std::uint8_t> turned) const {
     std::vector<std::int64_t> found(count(), 0);
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const std::size_t c = component(t);
-      found[c] += quotient(triangles_[t], (reversed_[t] != 0) != (turned[c] != 0), points) > 0 ? 0 : 1;
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      const std::size_t c = component(e);
+      found[c] += quotient(e, turned[c] != 0, points) > 0 ? 0 : 1;
     }
     return found;
   }
 
-  TurnedComponents triangles_of(std::span<const std::uint8_t> turned) const {
+  TurnedComponents elements_of(std::span<const std::uint8_t> turned) const {
     TurnedComponents found;
     found.count = static_cast<std::int32_t>(std::ranges::count(turned, std::uint8_t{1}));
     if (found.any()) {
-      found.triangles.resize(triangles_.size());
-      for (std::size_t t = 0; t < triangles_.size(); ++t) {
-        found.triangles[t] = turned[component(t)];
+      found.elements.resize(elements_.size());
+      for (std::size_t e = 0; e < elements_.size(); ++e) {
+        found.elements[e] = turned[component(e)];
       }
     }
     return found;
   }
 
-  /// One byte a component, from one byte a triangle.
-  std::vector<std::uint8_t> components_of(std::span<const std::uint8_t> of_triangles) const {
+  /// One byte a component, from one byte an element.
+  std::vector<std::uint8_t> components_of(std::span<const std::uint8_t> of_elements) const {
     std::vector<std::uint8_t> found(count(), 0);
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      found[component(t)] = of_triangles[t];
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      found[component(e)] = of_elements[e];
     }
     return found;
   }
 
  private:
   std::size_t count() const { return static_cast<std::size_t>(components_.components); }
-  std::size_t component(std::size_t t) const { return static_cast<std::size_t>(components_.component[t]); }
+  std::size_t component(std::size_t e) const { return static_cast<std::size_t>(components_.component[e]); }
 
-  std::span<const Triangle> triangles_;
+  /// measure(corners) of the points of an element. `is_turned`: it is turned over now.
+  template <class Measure>
+  double measured(std::size_t e, bool is_turned, std::span<const Point2<double>> points, const Measure& measure) const {
+    return elements_.visit([&](const auto& listed) {
+      return with_kind(canonical_corners(listed[e], (reversed_[e] != 0) != is_turned),
+                       [&](const auto& corners) { return measure(points_of(corners, points)); });
+    });
+  }
+  double quotient(std::size_t e, bool is_turned, std::span<const Point2<double>> points) const {
+    return measured(e, is_turned, points, [](const auto& corners) { return shape_quotient(corners); });
+  }
+  bool is_spoiled(std::size_t e, const FollowingNodes& nodes) const {
+    const std::span<const std::int32_t> corners = elements_[e];
+    return corners.size() == 3 && nodes.is_spoiled(Triangle{corners[0], corners[1], corners[2]}, true);
+  }
+
+  ElementList elements_;
   std::span<const std::uint8_t> reversed_;
   TriangleComponents components_;
 };
@@ -165,30 +179,32 @@ class OrientedComponents {
 OneRings rings_of(const RingView& rings, std::span<const std::uint8_t> wanted) {
   OneRings found =
       OneRings::with_sizes(rings.size(), [&](std::int32_t v) { return wanted[v] != 0 ? std::ssize(rings[v]) : 0; });
+  found.opposites.resize(rings.has_quadrilaterals() ? found.neighbours.size() : 0);
   for (std::int32_t v = 0; v < rings.size(); ++v) {
     if (wanted[v] != 0) {
       std::ranges::copy(rings[v], found.neighbours.begin() + found.offsets[v]);
+      if (rings.has_quadrilaterals()) {
+        std::ranges::copy(rings.mixed(v).opposites, found.opposites.begin() + found.offsets[v]);
+      }
     }
   }
   return found;
 }
 
 /// Untangles again, turned over, the components of a negative area. Keeps what is better.
-TurnedComponents turn_over(const RingView& rings, std::span<const Triangle> triangles,
-                           std::span<const std::uint8_t> reversed, std::span<const Point2<double>> input,
-                           std::span<Point2<double>> points, Workers& workers) {
-  const OrientedComponents components(triangles, reversed, input.size(), workers);
+TurnedComponents turn_over(const RingView& rings, const ElementList& elements, std::span<const std::uint8_t> reversed,
+                           std::span<const Point2<double>> input, std::span<Point2<double>> points, Workers& workers) {
+  const OrientedComponents components(elements, reversed, input.size(), workers);
   const std::vector<Point2<double>> before = in_input_order(rings, input);
   std::vector<std::uint8_t> turned = components.of_negative_area(before);
-  const TurnedComponents tried = components.triangles_of(turned);
+  const TurnedComponents tried = components.elements_of(turned);
   if (!tried.any()) {
     return {};
   }
-  OneRings tried_rings = rings_of(rings, vertices_of(rings, triangles, tried.triangles));
-  const RingView view{tried_rings.offsets, tried_rings.neighbours, rings.input_index};
-  tried_rings.neighbours = turned_neighbours(view, triangles, tried);
+  const OneRings tried_rings = rings_of(rings, vertices_of(rings, elements, tried.elements));
+  const RingView view{tried_rings.offsets, tried_rings.neighbours, rings.input_index, tried_rings.opposites};
   std::vector<Point2<double>> found(input.begin(), input.end());
-  untangle({tried_rings.offsets, tried_rings.neighbours, rings.input_index}, found, workers);
+  untangle(turned_rings(view, elements, tried).of(view), found, workers);
 
   const std::vector<Point2<double>> after = in_input_order(rings, found);
   const std::vector<std::int64_t> as_listed =
@@ -198,9 +214,9 @@ TurnedComponents turn_over(const RingView& rings, std::span<const Triangle> tria
     turned[c] = turned[c] != 0 && as_turned[c] < as_listed[c] ? 1 : 0;
   }
   components.take_out_worse(before, after, nullptr, turned);
-  const TurnedComponents kept = components.triangles_of(turned);
+  const TurnedComponents kept = components.elements_of(turned);
   if (kept.any()) {
-    const std::vector<std::uint8_t> of_kept = vertices_of(rings, triangles, kept.triangles);
+    const std::vector<std::uint8_t> of_kept = vertices_of(rings, elements, kept.elements);
     for (std::int32_t v = 0; v < rings.size(); ++v) {
       points[v] = of_kept[v] != 0 ? found[v] : points[v];
     }
@@ -212,61 +228,61 @@ TurnedComponents turn_over(const RingView& rings, std::span<const Triangle> tria
 
 std::vector<std::uint8_t> turned_over(std::span<const std::uint8_t> reversed, const TurnedComponents& turned) {
   std::vector<std::uint8_t> now(reversed.begin(), reversed.end());
-  for (std::size_t t = 0; t < turned.triangles.size(); ++t) {
-    now[t] ^= turned.triangles[t];
+  for (std::size_t e = 0; e < turned.elements.size(); ++e) {
+    now[e] ^= turned.elements[e];
   }
   return now;
 }
 
-BulkVector<std::int32_t> turned_neighbours(const RingView& rings, std::span<const Triangle> triangles,
-                                           const TurnedComponents& turned) {
-  BulkVector<std::int32_t> neighbours(rings.neighbours.begin(), rings.neighbours.end());
-  const std::vector<std::uint8_t> is_turned = vertices_of(rings, triangles, turned.triangles);
+TurnedRings turned_rings(const RingView& rings, const ElementList& elements, const TurnedComponents& turned) {
+  TurnedRings found{{rings.neighbours.begin(), rings.neighbours.end()},
+                    {rings.opposites.begin(), rings.opposites.end()}};
+  const std::vector<std::uint8_t> is_turned = vertices_of(rings, elements, turned.elements);
   for (std::int32_t v = 0; v < rings.size(); ++v) {
-    if (is_turned[v] != 0) {
-      std::reverse(neighbours.begin() + rings.offsets[v] + 1, neighbours.begin() + rings.offsets[v + 1]);
+    if (is_turned[v] == 0) {
+      continue;
+    }
+    std::reverse(found.neighbours.begin() + rings.offsets[v] + 1, found.neighbours.begin() + rings.offsets[v + 1]);
+    if (rings.has_quadrilaterals()) {
+      // Each is between a neighbour and the next one: the last was between the last one and the first.
+      std::reverse(found.opposites.begin() + rings.offsets[v], found.opposites.begin() + rings.offsets[v + 1]);
     }
   }
-  return neighbours;
+  return found;
 }
 
-std::int64_t inverted_triangles(const RingView& rings, std::span<const Triangle> triangles,
-                                const TurnedComponents& turned, std::span<const Point2<double>> points,
-                                Workers& workers) {
-  if (!turned.any()) {
-    return inverted_triangles(rings, points, workers);
-  }
-  const BulkVector<std::int32_t> neighbours = turned_neighbours(rings, triangles, turned);
-  return inverted_triangles({rings.offsets, neighbours, rings.input_index}, points, workers);
+std::int64_t inverted_elements(const RingView& rings, const ElementList& elements, const TurnedComponents& turned,
+                               std::span<const Point2<double>> points, Workers& workers) {
+  return turned.any() ? inverted_elements(turned_rings(rings, elements, turned).of(rings), points, workers)
+                      : inverted_elements(rings, points, workers);
 }
 
-MeshUntangling untangle_mesh(const RingView& rings, std::span<const Triangle> triangles,
-                             std::span<const std::uint8_t> reversed, std::span<Point2<double>> points,
-                             Workers& workers) {
+MeshUntangling untangle_mesh(const RingView& rings, const ElementList& elements, std::span<const std::uint8_t> reversed,
+                             std::span<Point2<double>> points, Workers& workers) {
   const std::vector<Point2<double>> input(points.begin(), points.end());
   const UntangleOutcome outcome = untangle(rings, points, workers);
   MeshUntangling result{outcome.inverted_before, outcome.inverted_after, {}};
   if (outcome.parts_of_no_area > 0 && !CallLimit::is_over()) {
-    result.turned = turn_over(rings, triangles, reversed, input, points, workers);
-    result.inverted_after = inverted_triangles(rings, triangles, result.turned, points, workers);
+    result.turned = turn_over(rings, elements, reversed, input, points, workers);
+    result.inverted_after = inverted_elements(rings, elements, result.turned, points, workers);
   }
   return result;
 }
 
-GuardOutcome keep_never_worse(const RingView& rings, std::span<const Triangle> triangles,
+GuardOutcome keep_never_worse(const RingView& rings, const ElementList& elements,
                               std::span<const std::uint8_t> reversed, TurnedComponents& turned,
                               std::span<const Point2<double>> before, std::span<Point2<double>> after, Workers& workers,
                               FollowingNodes* nodes) {
   if (!turned.any()) {
     return keep_never_worse(rings, before, after, workers, {}, nullptr, nodes);
   }
-  const std::vector<std::uint8_t> were_turned = vertices_of(rings, triangles, turned.triangles);
-  const OrientedComponents components(triangles, reversed, before.size(), workers);
-  std::vector<std::uint8_t> kept = components.components_of(turned.triangles);
+  const std::vector<std::uint8_t> were_turned = vertices_of(rings, elements, turned.elements);
+  const OrientedComponents components(elements, reversed, before.size(), workers);
+  std::vector<std::uint8_t> kept = components.components_of(turned.elements);
   components.take_out_worse(in_input_order(rings, before), in_input_order(rings, after), nodes, kept);
-  turned = components.triangles_of(kept);
+  turned = components.elements_of(kept);
   const std::vector<std::uint8_t> are_turned =
-      turned.any() ? vertices_of(rings, triangles, turned.triangles) : std::vector<std::uint8_t>(were_turned.size(), 0);
+      turned.any() ? vertices_of(rings, elements, turned.elements) : std::vector<std::uint8_t>(were_turned.size(), 0);
 
   std::vector<Point2<double>> rest(after.begin(), after.end());
   std::vector<std::int32_t> back;

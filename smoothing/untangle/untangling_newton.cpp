@@ -2,13 +2,17 @@
 #include "trismooth/smoothing/untangle/untangling_newton.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "trismooth/base/machine/ordered_sum.h"
 #include "trismooth/quality/element.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 #include "trismooth/smoothing/systems/conjugate_gradients.h"
 #include "trismooth/smoothing/systems/host_rows.h"
 #include "trismooth/smoothing/untangle/regularised_energy.h"
@@ -19,7 +23,45 @@ namespace {
 
 constexpr std::int64_t newton_grain = 1024;
 
-/// A symmetric matrix of 2 x 2 blocks, one row a vertex: the diagonal block and one for each neighbour.
+/// What has an energy: a triangle, or the corner of a quadrilateral with the vertices before and behind it.
+struct Term {
+  Triangle corners;  ///< counter-clockwise; that of the quadrilateral first
+  bool is_corner;    ///< of a quadrilateral
+
+  const IdealTriangle& ideal() const { return is_corner ? IdealTriangle::corner : IdealTriangle::equilateral; }
+};
+
+void add_terms(const Triangle& triangle, std::vector<Term>& terms) {
+  terms.push_back({triangle, false});
+}
+void add_terms(const MixedElement& quadrilateral, std::vector<Term>& terms) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    terms.push_back({{quadrilateral[i], quadrilateral[(i + 1) % 4], quadrilateral[(i + 3) % 4]}, true});
+  }
+}
+
+/// Calls visit(term, i, next, previous) for the terms of an element that a vertex is a corner of, number i of the term.
+/// `terms`: of the element; term: the number among them. `corner`: of the vertex in the element; next, previous: those
+/// of its entries that follow the vertex in the term, and come before it.
+template <class Visit>
+void for_terms_at(std::int32_t v, std::span<const Term> terms, const TriangleCorner<int>& corner, const Visit& visit) {
+  const Triangle& corners = terms[0].corners;
+  visit(0, corners[0] == v ? 0 : corners[1] == v ? 1 : 2, corner.next, corner.previous);
+}
+template <class Visit>
+void for_terms_at(std::int32_t v, std::span<const Term> terms, const QuadrilateralCorner<int>& corner,
+                  const Visit& visit) {
+  int own = 0;
+  while (terms[static_cast<std::size_t>(own)].corners[0] != v) {
+    ++own;
+  }
+  visit(own, 0, corner.next, corner.previous);
+  visit((own + 1) % 4, 2, corner.next, corner.opposite);
+  visit((own + 3) % 4, 1, corner.opposite, corner.previous);
+}
+
+/// A symmetric matrix of 2 x 2 blocks, one row a vertex that may move: the diagonal block and one for each place in its
+/// ring, of opposite vertices, too.
 struct BlockMatrix {
   struct Diagonal {
     double xx, xy, yy;
@@ -28,18 +70,24 @@ struct BlockMatrix {
     double xx, xy, yx, yy;
   };
   std::vector<Diagonal> diagonal;
-  std::vector<Block> blocks;  ///< as Patch::neighbours
+  std::vector<std::int64_t> offsets;  ///< of rows, into the next two
+  std::vector<std::int32_t> columns;  ///< neighbours, then opposite vertices: no_corner where there is none
+  std::vector<Block> blocks;
 };
 
 class RegularisedMinimiser {
  public:
   RegularisedMinimiser(const Patch& patch, std::span<Point2<double>> points, Workers& workers)
       : patch_(patch), points_(points), workers_(workers) {
+    first_terms_.reserve(patch_.elements.size());
+    for (const MixedElement& element : patch_.elements) {
+      first_terms_.push_back(std::ssize(terms_));
+      with_kind(element, [&](const auto& corners) { add_terms(corners, terms_); });
+    }
     find_target_areas();
-    derivatives_.resize(patch_.triangles.size());
+    derivatives_.resize(terms_.size());
     gradient_.resize(static_cast<std::size_t>(patch_.free_count));
-    matrix_.diagonal.resize(gradient_.size());
-    matrix_.blocks.resize(patch_.neighbours.size());
+    lay_out_matrix();
   }
 
   void run(int most_steps) {
@@ -76,18 +124,32 @@ class RegularisedMinimiser {
   }
 
  private:
+  void lay_out_matrix() {
+    const RingView rings = patch_.rings();
+    matrix_.diagonal.resize(gradient_.size());
+    matrix_.offsets.assign(1, 0);
+    for (std::int32_t v = 0; v < patch_.free_count; ++v) {
+      std::ranges::copy(rings[v], std::back_inserter(matrix_.columns));
+      if (rings.has_quadrilaterals()) {
+        std::ranges::copy(rings.mixed(v).opposites, std::back_inserter(matrix_.columns));
+      }
+      matrix_.offsets.push_back(std::ssize(matrix_.columns));
+    }
+    matrix_.blocks.resize(matrix_.columns.size());
+  }
+
   /// Steps in which the energy or the smallest D must get better by some hundredths.
   static constexpr int stall_window = 8;
 
   /// lambda: enough that no triangle shrinks to a point where that is cheaper than to turn it.
   static constexpr double size_weight = 0.5;
 
-  /// The size that each triangle is to have: the mean of the sizes around its corners, three times. So it follows a
+  /// The size that each term is to have: the mean of the sizes around its corners, three times. So it follows a
   /// grading, and a triangle that the start has collapsed gets the size of its neighbours.
   void find_target_areas() {
-    targets_.resize(patch_.triangles.size());
+    targets_.resize(terms_.size());
     for (std::size_t t = 0; t < targets_.size(); ++t) {
-      targets_[t] = 0.5 * std::abs(doubled_area(points_of(patch_.triangles[t], points_)));
+      targets_[t] = 0.5 * std::abs(doubled_area(points_of(terms_[t].corners, points_)));
     }
     std::vector<double> sums(points_.size());
     std::vector<double> counts(points_.size());
@@ -95,13 +157,13 @@ class RegularisedMinimiser {
       std::ranges::fill(sums, 0);
       std::ranges::fill(counts, 0);
       for (std::size_t t = 0; t < targets_.size(); ++t) {
-        for (const std::int32_t v : patch_.triangles[t]) {
+        for (const std::int32_t v : terms_[t].corners) {
           sums[v] += targets_[t];
           counts[v] += 1;
         }
       }
       for (std::size_t t = 0; t < targets_.size(); ++t) {
-        const auto [a, b, c] = patch_.triangles[t];
+        const auto [a, b, c] = terms_[t].corners;
         targets_[t] = (sums[a] / counts[a] + sums[b] / counts[b] + sums[c] / counts[c]) / 3;
       }
     }
@@ -115,14 +177,16 @@ class RegularisedMinimiser {
     }
   }
 
+  std::int32_t term_count() const { return static_cast<std::int32_t>(terms_.size()); }
+
   RegularisedEnergy::Shape shape_of(std::int32_t t, std::span<const Point2<double>> points) const {
-    const auto [a, b, c] = patch_.triangles[t];
-    return RegularisedEnergy::shape_of(points[a], points[b], points[c], targets_[t]);
+    const auto [a, b, c] = terms_[t].corners;
+    return RegularisedEnergy::shape_of(points[a], points[b], points[c], targets_[t], terms_[t].ideal());
   }
 
   double smallest_determinant() const {
     double smallest = std::numeric_limits<double>::infinity();
-    for (std::int32_t t = 0; t < patch_.triangle_count(); ++t) {
+    for (std::int32_t t = 0; t < term_count(); ++t) {
       const double determinant = shape_of(t, points_).determinant;
       if (!(determinant >= smallest)) {
         smallest = determinant;
@@ -135,20 +199,20 @@ class RegularisedMinimiser {
     return smallest > 0 ? 1e-10 : std::sqrt(1e-6 + 0.04 * smallest * smallest);
   }
 
-  template <class Term>
-  double sum(std::int32_t count, const Term& term) {
-    return ordered_sum(count, term, workers_);
+  template <class Value>
+  double sum(std::int32_t count, const Value& value) {
+    return ordered_sum(count, value, workers_);
   }
 
   double value_at(std::span<const Point2<double>> points) {
-    return sum(patch_.triangle_count(), [&](std::int32_t t) { return energy_.value(shape_of(t, points)); });
+    return sum(term_count(), [&](std::int32_t t) { return energy_.value(shape_of(t, points)); });
   }
   double value() { return value_at(points_); }
 
   /// Gradient and matrix at the points; returns the energy.
   double differentiate() {
-    const double total = sum(patch_.triangle_count(), [&](std::int32_t t) {
-      derivatives_[t] = energy_.derivatives(shape_of(t, points_), targets_[t]);
+    const double total = sum(term_count(), [&](std::int32_t t) {
+      derivatives_[t] = energy_.derivatives(shape_of(t, points_));
       return derivatives_[t].value;
     });
     workers_.for_blocks(patch_.free_count, newton_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -159,12 +223,12 @@ class RegularisedMinimiser {
     return total;
   }
 
-  /// How corner i of a triangle comes into e (times the unit matrix) and t (times J).
+  /// How corner i of a term comes into e (times the unit matrix); into t (times J): IdealTriangle::into_t.
   static constexpr double into_e[3] = {1, -0.5, -0.5};
-  static constexpr double into_t[3] = {0, 0.5 * RegularisedEnergy::root3, -0.5 * RegularisedEnergy::root3};
 
-  /// What a triangle gives to the block of its corners i and j.
-  static BlockMatrix::Block block_of(const RegularisedEnergy::Derivatives& of, int i, int j) {
+  /// What a term gives to the block of its corners i and j.
+  static BlockMatrix::Block block_of(const RegularisedEnergy::Derivatives& of, const std::array<double, 3>& into_t,
+                                     int i, int j) {
     const double aa = into_e[i] * into_e[j];
     const double ab = into_e[i] * into_t[j];
     const double ba = into_t[i] * into_e[j];
@@ -184,26 +248,35 @@ class RegularisedMinimiser {
   }
 
   void assemble_row(std::int32_t v) {
-    const std::int32_t begin = patch_.offsets[v];
-    const std::int32_t end = patch_.offsets[v + 1];
-    std::fill(matrix_.blocks.begin() + begin, matrix_.blocks.begin() + end, BlockMatrix::Block{0, 0, 0, 0});
+    const std::span row = std::span(matrix_.blocks)
+                              .subspan(static_cast<std::size_t>(matrix_.offsets[v]),
+                                       static_cast<std::size_t>(matrix_.offsets[v + 1] - matrix_.offsets[v]));
+    std::ranges::fill(row, BlockMatrix::Block{0, 0, 0, 0});
     BlockMatrix::Diagonal diagonal{0, 0, 0};
     Point2<double> gradient{0, 0};
-    for (std::int32_t k = begin; k < end; ++k) {
-      const std::int32_t t = patch_.around[k];
-      const Triangle& corners = patch_.triangles[t];
-      const RegularisedEnergy::Derivatives& of_triangle = derivatives_[t];
-      const int i = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+    const auto add_term = [&](std::int64_t t, int i, int next, int previous) {
+      const RegularisedEnergy::Derivatives& of_term = derivatives_[static_cast<std::size_t>(t)];
+      const std::array<double, 3>& into_t = terms_[static_cast<std::size_t>(t)].ideal().into_t;
       // J^T by_t = (by_t.y, -by_t.x).
-      gradient.x += into_e[i] * of_triangle.by_e.x + into_t[i] * of_triangle.by_t.y;
-      gradient.y += into_e[i] * of_triangle.by_e.y - into_t[i] * of_triangle.by_t.x;
-      const BlockMatrix::Block own = block_of(of_triangle, i, i);
+      gradient.x += into_e[i] * of_term.by_e.x + into_t[i] * of_term.by_t.y;
+      gradient.y += into_e[i] * of_term.by_e.y - into_t[i] * of_term.by_t.x;
+      const BlockMatrix::Block own = block_of(of_term, into_t, i, i);
       diagonal.xx += own.xx;
       diagonal.xy += 0.5 * (own.xy + own.yx);
       diagonal.yy += own.yy;
-      add(matrix_.blocks[k], block_of(of_triangle, i, (i + 1) % 3));
-      add(matrix_.blocks[k + 1 == end ? begin : k + 1], block_of(of_triangle, i, (i + 2) % 3));
-    }
+      add(row[next], block_of(of_term, into_t, i, (i + 1) % 3));
+      add(row[previous], block_of(of_term, into_t, i, (i + 2) % 3));
+    };
+    const std::span<const std::int32_t> elements = patch_.elements_around(v);
+    const auto add_element = [&](const auto& places) {
+      const std::int64_t first = first_terms_[elements[places.next]];
+      for_terms_at(v, std::span(terms_).subspan(static_cast<std::size_t>(first)), places,
+                   [&](int term, int i, int next, int previous) { add_term(first + term, i, next, previous); });
+    };
+    patch_.rings().with_ring(v, [&](const auto& ring) {
+      for_elements_around(
+          ring, [](int place) { return place; }, add_element);
+    });
     matrix_.diagonal[v] = diagonal;
     gradient_[v] = gradient;
   }
@@ -213,12 +286,12 @@ class RegularisedMinimiser {
     const auto apply = [&](const Point2<double>* x, std::int32_t v) {
       const BlockMatrix::Diagonal& d = matrix_.diagonal[v];
       Point2<double> sum{d.xx * x[v].x + d.xy * x[v].y, d.xy * x[v].x + d.yy * x[v].y};
-      for (std::int32_t k = patch_.offsets[v]; k < patch_.offsets[v + 1]; ++k) {
-        const std::int32_t neighbour = patch_.neighbours[k];
-        if (neighbour < patch_.free_count) {
+      for (std::int64_t k = matrix_.offsets[v]; k < matrix_.offsets[v + 1]; ++k) {
+        const std::int32_t other = matrix_.columns[k];
+        if (other < patch_.free_count && other != no_corner) {
           const BlockMatrix::Block& b = matrix_.blocks[k];
-          sum.x += b.xx * x[neighbour].x + b.xy * x[neighbour].y;
-          sum.y += b.yx * x[neighbour].x + b.yy * x[neighbour].y;
+          sum.x += b.xx * x[other].x + b.xy * x[other].y;
+          sum.y += b.yx * x[other].x + b.yy * x[other].y;
         }
       }
       return sum;
@@ -275,8 +348,10 @@ class RegularisedMinimiser {
   std::span<Point2<double>> points_;
   Workers& workers_;
   RegularisedEnergy energy_;
-  std::vector<double> targets_;                              ///< A* of each triangle
-  std::vector<RegularisedEnergy::Derivatives> derivatives_;  ///< of each triangle's energy, by e and t
+  std::vector<Term> terms_;
+  std::vector<std::int64_t> first_terms_;                    ///< of each element; the others follow
+  std::vector<double> targets_;                              ///< A* of each term
+  std::vector<RegularisedEnergy::Derivatives> derivatives_;  ///< of each term's energy, by e and t
   std::vector<Point2<double>> gradient_;
   BlockMatrix matrix_;
   std::vector<Point2<double>> step_;

@@ -297,6 +297,7 @@ void compare_quadrilaterals() {
           options.precision = precision;
           options.evaluation = evaluation;
           options.layers = Layers::smooth;
+          options.untangle = Untangle::off;  // tangled meshes would go to the host
           options.record_min_shape = evaluation == Evaluation::changed;
           options.max_sweeps = most_sweeps;
           std::vector<double> expected = mesh.xy();

@@ -66,6 +66,7 @@ void require_of_device(const Run& found, const Run& expected) {
 /// What the CPU made of it.
 Run require_cpu_results(const MixedMesh& mesh, SmoothingOptions options, const Constraints& constraints = {},
                         Storage storage = Storage::float64) {
+  options.untangle = Untangle::off;  // tangled meshes would go to the host
   const Run expected = run(mesh, options, constraints, storage);
   options.backend = &cuda::backend();
   require_of_device(run(mesh, options, constraints, storage), expected);
@@ -88,6 +89,7 @@ std::vector<SmoothingOptions> all_ways(std::int64_t max_sweeps) {
   std::vector<SmoothingOptions> ways;
   for (SmoothingOptions options : of_methods) {
     options.max_sweeps = max_sweeps;
+    options.untangle = Untangle::off;  // tangled meshes would go to the host
     for (const Form form : forms) {
       for (const Precision precision : precisions) {
         options.form = form;
@@ -502,6 +504,48 @@ TEST_CASE("meshes without a free vertex, and far or tiny ones, of quadrilaterals
   }
 }
 
+TEST_CASE("tangled meshes of quadrilaterals have the CPU's bits, untangled, and the others are the device's") {
+  int of_host = 0;
+  int of_device = 0;
+  std::vector<MixedMesh> meshes = random_meshes(20);
+  for (const std::uint64_t thirds : {0U, 1U}) {
+    meshes.emplace_back(20, 15, 0.2, 4, thirds);
+    meshes.emplace_back(20, 15, 0.5, 4, thirds);
+    // Mirrored inside: it is turned over.
+    MixedMesh& turned = meshes.emplace_back(12, 12, 0.2, 4, thirds);
+    for (std::size_t v = 0; v < turned.points.size(); ++v) {
+      auto& [x, y] = turned.points[v];
+      const std::size_t column = v % 13;
+      const std::size_t row = v / 13;
+      x = column % 12 == 0 || row % 12 == 0 ? x : 12 - x;
+    }
+  }
+  for (const MixedMesh& mesh : meshes) {
+    for (SmoothingOptions options : all_ways(15)) {
+      CAPTURE(mesh.points.front()[0], name_of(options));
+      options.untangle = Untangle::on;
+      const Run expected = run(mesh, options);
+      options.backend = &cuda::backend();
+      const Run found = run(mesh, options);
+      require_same(found, expected);
+      REQUIRE(found.result.untangling);
+      REQUIRE(expected.result.untangling);
+      const UntanglingResult& here = *found.result.untangling;
+      const UntanglingResult& there = *expected.result.untangling;
+      CHECK(here.inverted_before == there.inverted_before);
+      CHECK(here.inverted_untangled == there.inverted_untangled);
+      CHECK(here.inverted_after == there.inverted_after);
+      CHECK(here.inverted_fixed == there.inverted_fixed);
+      CHECK(here.turned == there.turned);
+      CHECK(found.result.inverted == expected.result.inverted);
+      CHECK((found.result.backend == "cpu") == (there.inverted_before > 0));
+      ++(found.result.backend == "cpu" ? of_host : of_device);
+    }
+  }
+  CHECK(of_host > 100);
+  CHECK(of_device > 30);
+}
+
 TEST_CASE("what devices do not do with quadrilaterals is refused, and nothing moves") {
   const MixedMesh mesh(6, 6, 0.2, 1);
   const auto refused = [&](const SmoothingOptions& options, const Constraints& constraints = {}) {
@@ -519,11 +563,6 @@ TEST_CASE("what devices do not do with quadrilaterals is refused, and nothing mo
   CHECK(refused(options) ==
         "argument: execution 'cdp' smooths triangles alone: quadrilaterals by execution 'resident'");
   options.execution = Execution::resident;
-  options.untangle = Untangle::on;
-  CHECK(refused(options) ==
-        "argument: untangling is of triangles alone, and there are quadrilaterals; smoothing by method 'laplacian' "
-        "first mends many");
-  options.untangle = Untangle::automatic;
   Constraints sliding;
   sliding.slide.along = Slide::straight;
   CHECK(refused(options, sliding) ==

@@ -498,12 +498,6 @@ TEST_CASE("what quadrilaterals cannot have is refused, and nothing moves") {
     CHECK(same_bits(xy, mesh.xy()));
     return said;
   };
-  SmoothingOptions options = with(Method::mean_ratio);
-  options.untangle = Untangle::on;
-  CHECK(refused(options) ==
-        "argument: untangling is of triangles alone, and there are quadrilaterals; smoothing by method 'laplacian' "
-        "first mends "
-        "many");
   Constraints sliding;
   sliding.slide.along = Slide::straight;
   CHECK(refused(with(Method::smart), sliding) ==

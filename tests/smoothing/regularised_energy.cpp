@@ -16,16 +16,25 @@ namespace trismooth::regularised_energy_test {
 struct Coordinates {
   std::array<double, 4> values;
 
-  /// The triangle around the origin with these coordinates.
-  RegularisedEnergy::Shape shape(double target) const {
+  /// The triangle around the origin with these coordinates. `height`: of the ideal one over its base.
+  RegularisedEnergy::Shape shape(double target, const IdealTriangle& ideal, double height) const {
     const auto [ex, ey, tx, ty] = values;
-    // t = sqrt(3)/2 J (z1 - z2), so z1 - z2 = -2/sqrt(3) J t; z1 + z2 = -e times 2/3 where the sum of all is 0.
-    const Point2<double> d{2 / RegularisedEnergy::root3 * ty, -2 / RegularisedEnergy::root3 * tx};
+    // t = h J (z1 - z2), so z1 - z2 = -1/h J t; z1 + z2 = -e times 2/3 where the sum of all is 0.
+    const Point2<double> d{ty / height, -tx / height};
     const Point2<double> z0{ex * 2 / 3, ey * 2 / 3};
     const Point2<double> z1{-0.5 * z0.x + 0.5 * d.x, -0.5 * z0.y + 0.5 * d.y};
     const Point2<double> z2{-0.5 * z0.x - 0.5 * d.x, -0.5 * z0.y - 0.5 * d.y};
-    return RegularisedEnergy::shape_of(z0, z1, z2, target);
+    return RegularisedEnergy::shape_of(z0, z1, z2, target, ideal);
   }
+};
+
+/// A kind of ideal triangle with the height of it over its base, and the size that is aimed at.
+struct Aim {
+  const IdealTriangle* ideal;
+  double height;
+  double target;
+
+  RegularisedEnergy::Shape shape(const Coordinates& at) const { return at.shape(target, *ideal, height); }
 };
 
 using Matrix = std::array<std::array<double, 4>, 4>;
@@ -60,7 +69,7 @@ bool is_positive(Matrix m) {
   return true;
 }
 
-Matrix differences(const RegularisedEnergy& energy, const Coordinates& at, double target) {
+Matrix differences(const RegularisedEnergy& energy, const Coordinates& at, const Aim& aim) {
   constexpr double step = 1e-5;
   Matrix found{};
   for (int i = 0; i < 4; ++i) {
@@ -68,8 +77,8 @@ Matrix differences(const RegularisedEnergy& energy, const Coordinates& at, doubl
     Coordinates high = at;
     low.values[i] -= step;
     high.values[i] += step;
-    const auto left = gradient_of(energy.derivatives(low.shape(target), target));
-    const auto right = gradient_of(energy.derivatives(high.shape(target), target));
+    const auto left = gradient_of(energy.derivatives(aim.shape(low)));
+    const auto right = gradient_of(energy.derivatives(aim.shape(high)));
     for (int j = 0; j < 4; ++j) {
       found[i][j] = (right[j] - left[j]) / (2 * step);
     }
@@ -94,6 +103,31 @@ TEST_CASE("without regularisation and sizes the energy is 2 / shape") {
   }
 }
 
+TEST_CASE("of the corner of a quadrilateral the energy is 1 / shape there, half of what a triangle of its shape has") {
+  test_meshes::Random random(4);
+  const RegularisedEnergy energy{0, 0};
+  int tried = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::array<Point2<double>, 3> z{};
+    for (Point2<double>& p : z) {
+      p.x = random.between(-1, 1);
+      p.y = random.between(-1, 1);
+    }
+    const auto& [corner, next, previous] = z;
+    const double area = (next.x - corner.x) * (previous.y - corner.y) - (next.y - corner.y) * (previous.x - corner.x);
+    if (area < 0.01) {
+      continue;
+    }
+    ++tried;
+    const double squares = std::pow(std::hypot(next.x - corner.x, next.y - corner.y), 2) +
+                           std::pow(std::hypot(previous.x - corner.x, previous.y - corner.y), 2);
+    const double value = energy.value(
+        RegularisedEnergy::shape_of(corner, next, previous, random.between(0.1, 3), IdealTriangle::corner));
+    REQUIRE(value == Approx(squares / (2 * area)).epsilon(1e-9));
+  }
+  CHECK(tried > 50);
+}
+
 TEST_CASE(
     "the gradient is that of the energy, and the Hessian its derivative where that is positive, and positive else") {
   test_meshes::Random random(2);
@@ -102,12 +136,14 @@ TEST_CASE(
   for (int i = 0; i < 2000; ++i) {
     const RegularisedEnergy energy{random.between(0.05, 1), random.between(0, 1)};
     const double target = random.between(0.3, 2);
+    const Aim aim = i % 2 == 0 ? Aim{&IdealTriangle::equilateral, 0.5 * RegularisedEnergy::root3, target}
+                               : Aim{&IdealTriangle::corner, 0.5, target};
     Coordinates at{};
     for (double& value : at.values) {
       value = random.between(-1, 1);
     }
-    const auto found = energy.derivatives(at.shape(target), target);
-    REQUIRE(found.value == Approx(energy.value(at.shape(target))));
+    const auto found = energy.derivatives(aim.shape(at));
+    REQUIRE(found.value == Approx(energy.value(aim.shape(at))));
     const auto gradient = gradient_of(found);
     for (int k = 0; k < 4; ++k) {
       constexpr double step = 1e-5;
@@ -115,12 +151,12 @@ TEST_CASE(
       Coordinates high = at;
       low.values[k] -= step;
       high.values[k] += step;
-      const double slope = (energy.value(high.shape(target)) - energy.value(low.shape(target))) / (2 * step);
+      const double slope = (energy.value(aim.shape(high)) - energy.value(aim.shape(low))) / (2 * step);
       REQUIRE(gradient[k] == Approx(slope).epsilon(1e-4).margin(1e-4 * found.value));
     }
     const Matrix hessian = hessian_of(found);
     REQUIRE(is_positive(hessian));
-    const Matrix expected = differences(energy, at, target);
+    const Matrix expected = differences(energy, at, aim);
     Matrix shifted = expected;  // well inside of what is positive: nothing was mended there
     for (int k = 0; k < 4; ++k) {
       shifted[k][k] -= 1e-3 * found.value;
@@ -144,8 +180,17 @@ TEST_CASE("the least energy is that of an equilateral triangle of its size") {
   const RegularisedEnergy energy{1e-10, 0.5};
   const double target = 0.25 * RegularisedEnergy::root3;
   const auto ideal = RegularisedEnergy::shape_of({0, 0}, {1, 0}, {0.5, 0.5 * RegularisedEnergy::root3}, target);
-  const auto found = energy.derivatives(ideal, target);
+  const auto found = energy.derivatives(ideal);
   CHECK(found.value == Approx(2 + 0.5 * 2));
+  for (const double slope : gradient_of(found)) {
+    CHECK(slope == Approx(0).margin(1e-9));
+  }
+}
+
+TEST_CASE("the least energy of a corner of a quadrilateral is that of a right angle with equal sides") {
+  const RegularisedEnergy energy{1e-10, 0.5};
+  const auto found = energy.derivatives(RegularisedEnergy::shape_of({0, 0}, {2, 0}, {0, 2}, 2, IdealTriangle::corner));
+  CHECK(found.value == Approx(0.5 * (2 + 0.5 * 2)));
   for (const double slope : gradient_of(found)) {
     CHECK(slope == Approx(0).margin(1e-9));
   }
@@ -160,7 +205,7 @@ TEST_CASE("a triangle that is turned by a right angle has the same derivatives, 
       p.x = i % 5 == 0 ? random.below(3) : random.between(-1, 1);
       p.y = i % 5 == 0 ? random.below(3) : random.between(-1, 1);
     }
-    const auto of = [&] { return energy.derivatives(RegularisedEnergy::shape_of(z[0], z[1], z[2], 0.7), 0.7); };
+    const auto of = [&] { return energy.derivatives(RegularisedEnergy::shape_of(z[0], z[1], z[2], 0.7)); };
     const auto expected = of();
     for (Point2<double>& p : z) {
       p = {-p.y, p.x};

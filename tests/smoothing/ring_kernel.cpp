@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/untangle/ring_kernel.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -12,9 +14,10 @@ namespace trismooth::ring_kernel_test {
 
 using Ring = std::vector<Point2<double>>;
 
-bool sees_all(const Ring& ring, Point2<double> p) {
+/// `least`: what is seen of every edge is more than this.
+bool sees_all(const Ring& ring, Point2<double> p, double least = 0) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (!(cross(ring[i] - p, ring[(i + 1) % ring.size()] - p) > 0)) {
+    if (!(cross(ring[i] - p, ring[(i + 1) % ring.size()] - p) > least)) {
       return false;
     }
   }
@@ -60,6 +63,59 @@ TEST_CASE("a ring that goes round clockwise has no kernel") {
   std::vector<Point2<double>> scratch;
   CHECK(kernel_centre(Ring{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, scratch) == Point2<double>{0.5, 0.5});
   CHECK_FALSE(kernel_centre(Ring{{0, 0}, {0, 1}, {1, 1}, {1, 0}}, scratch));
+}
+
+/// A ring in which some elements are quadrilaterals: their opposite vertices are in the polygon, and chords cut these
+/// off.
+struct MixedRing {
+  Ring polygon;
+  std::vector<Chord> chords;
+};
+
+MixedRing random_mixed_ring(test_meshes::Random& random) {
+  const Ring ring = random_ring(random);
+  MixedRing mixed;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2<double> next = ring[(i + 1) % ring.size()];
+    mixed.polygon.push_back(ring[i]);
+    if (random.below(2) == 0) {
+      const double out = random.between(0.7, 1.4);
+      mixed.polygon.push_back({out * (ring[i].x + next.x) / 2, out * (ring[i].y + next.y) / 2});
+      mixed.chords.push_back({ring[i], next});
+    }
+  }
+  return mixed;
+}
+
+bool is_left_of_chords(const MixedRing& ring, Point2<double> p, double least = 0) {
+  return std::ranges::all_of(ring.chords,
+                             [&](const Chord& chord) { return cross(chord[0] - p, chord[1] - p) > least; });
+}
+
+TEST_CASE("in the centre of a kernel with chords a vertex has no inward corner, nor its neighbours beside it") {
+  test_meshes::Random random(3);
+  std::vector<Point2<double>> scratch;
+  int with_kernel = 0;
+  int without = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const MixedRing ring = random_mixed_ring(random);
+    if (const auto centre = kernel_centre(ring.polygon, scratch, ring.chords)) {
+      // Where a chord meets an edge the kernel may be no more than that point.
+      constexpr double rounding = -1e-14;
+      REQUIRE(sees_all(ring.polygon, *centre, rounding));
+      REQUIRE(is_left_of_chords(ring, *centre, rounding));
+      with_kernel += sees_all(ring.polygon, *centre) && is_left_of_chords(ring, *centre) ? 1 : 0;
+      continue;
+    }
+    ++without;
+    for (int tries = 0; tries < 200; ++tries) {
+      const double x = random.between(-1, 1);
+      const Point2<double> place{x, random.between(-1, 1)};
+      REQUIRE_FALSE((sees_all(ring.polygon, place) && is_left_of_chords(ring, place)));
+    }
+  }
+  CHECK(with_kernel > 300);
+  CHECK(without > 300);
 }
 
 TEST_CASE("a ring that is turned by right angles has the same centre, turned, to the last bit") {
