@@ -46,10 +46,9 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
                   "a: all moves from the positions before the sweep; b: moves see the neighbours already moved, which "
                   "needs fewer sweeps")
       ->group(group);
-  add_enum_option(
-      command, "--untangle", options.untangle,
-      "Before the sweeps, move vertices so that no triangle is inverted, where that can be done; auto: with "
-      "mean-ratio")
+  add_enum_option(command, "--untangle", options.untangle,
+                  "Before the sweeps, move vertices so that no element is inverted, where that can be done; auto: with "
+                  "mean-ratio")
       ->group(group);
   add_enum_option(command, "--precision", options.precision, "Of the sweeps; checks are in double always")
       ->group(group);

@@ -397,7 +397,7 @@ std::string outcome_table(const PipelineResult& result) {
             {"vertices put back", count_text(smoothing.reverted_vertices)},
             {"guard rounds", count_text(smoothing.guard_rounds)}};
   if (smoothing.untangling) {
-    rows.emplace_back("untangling", untangling_text(*smoothing.untangling));
+    rows.emplace_back("untangling", untangling_text(smoothing));
   }
   if (smoothing.sliding) {
     rows.emplace_back("sliding", sliding_text(result));

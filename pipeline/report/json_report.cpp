@@ -117,7 +117,7 @@ Json options_json(const PipelineOptions& options, const PipelineResult& run) {
           {"topology", name_of(smoothing.topology)},
           {"precision", name_of(smoothing.precision)},
           {"guard", smoothing.guard},
-          {"untangle", name_of(smoothing.untangles() && run.input.quadrilaterals == 0 ? Untangle::on : Untangle::off)},
+          {"untangle", name_of(smoothing.untangles() ? Untangle::on : Untangle::off)},
           {"layers", name_of(smoothing.layers)},
           {"threads", result ? result->threads : smoothing.threads},
           {"max_sweeps", smoothing.max_sweeps},

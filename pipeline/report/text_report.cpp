@@ -111,7 +111,7 @@ std::string result_lines(const PipelineResult& result, TextDetail detail) {
   std::string reason(to_string(smoothing.stop_reason));
   std::ranges::replace(reason, '_', ' ');
   std::string lines = smoothing.untangling && (smoothing.untangling->inverted_before > 0 || detail == TextDetail::all)
-                          ? labelled_line("untangling:", untangling_text(*smoothing.untangling))
+                          ? labelled_line("untangling:", untangling_text(smoothing))
                           : std::string{};
   if (smoothing.sliding) {
     lines += labelled_line("sliding:", sliding_text(result));
@@ -251,12 +251,15 @@ std::string quadratic_text(const PipelineResult& result) {
   return text + ".";
 }
 
-std::string untangling_text(const UntanglingResult& untangling) {
-  std::string text = "every triangle was valid";
+std::string untangling_text(const SmoothingResult& smoothing) {
+  const UntanglingResult& untangling = *smoothing.untangling;
+  const bool are_triangles = smoothing.quadrilaterals == 0;
+  std::string text = are_triangles ? "every triangle was valid" : "every element was valid";
   if (untangling.inverted_before > 0) {
     text = fmt::format("{} not valid before, {} after it, {} in the result",
-                       counted(untangling.inverted_before, "triangle", "triangles"), untangling.inverted_untangled,
-                       untangling.inverted_after);
+                       counted(untangling.inverted_before, are_triangles ? "triangle" : "element",
+                               are_triangles ? "triangles" : "elements"),
+                       untangling.inverted_untangled, untangling.inverted_after);
   }
   if (untangling.inverted_fixed > 0) {
     text += fmt::format("; {} more have fixed vertices alone", untangling.inverted_fixed);

@@ -29,7 +29,7 @@ bool ran_on_device(const SmoothingResult& smoothing);
 std::string launches_text(const SmoothingResult& smoothing);
 
 /// "12 triangles not valid before, 0 after it, 0 in the result": what untangling did.
-std::string untangling_text(const UntanglingResult& untangling);
+std::string untangling_text(const SmoothingResult& smoothing);
 
 /// "396 of 396 vertices on 4 lines slid, which are ..": what became of vertices that may slide.
 std::string sliding_text(const PipelineResult& result);

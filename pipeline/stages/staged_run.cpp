@@ -103,7 +103,7 @@ void StagedRun::check_after() {
   if (run_.options.deformation) {
     return;  // of all steps together it is said
   }
-  for (std::string& warning : warnings_of_invalid(result, run_.options.smoothing.method)) {
+  for (std::string& warning : warnings_of_invalid(result)) {
     run_.warn(std::move(warning));
   }
 }

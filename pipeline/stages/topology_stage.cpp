@@ -164,15 +164,6 @@ Quads settled_quads(RunState& run) {
   return Quads::hold;
 }
 
-/// Throws std::invalid_argument where what is asked for is not done with quadrilaterals.
-void require_triangles_for_options(const RunState& run) {
-  if (run.options.output && run.smoothing.untangle == Untangle::on && !run.mesh.elements.are_triangles()) {
-    throw std::invalid_argument(
-        "--untangle on is of triangles alone, and the mesh has quadrilaterals; smoothing by --method laplacian first "
-        "mends many, and --quads hold leaves them as they are");
-  }
-}
-
 /// Finds whether vertices of this mesh can slide where the options want it.
 void settle_sliding(RunState& run) {
   if (run.options.slide.along == Slide::off) {
@@ -277,7 +268,6 @@ void connect_mesh(RunState& run) {
   const Quads quads = settled_quads(run);
   mesh = options.project ? projected_mesh(document, options.input, run.workers, quads)
                          : planar_mesh(document, options.input, run.workers, quads);
-  require_triangles_for_options(run);
   if (options.geographic) {
     lay_on_map(mesh, document, options.input);
   } else if (looks_geographic(mesh, document)) {

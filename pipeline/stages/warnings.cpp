@@ -106,20 +106,16 @@ std::string note_of_layers(const LayersResult& layers) {
                          held == 1 ? "it" : "them");
 }
 
-std::vector<std::string> warnings_of_invalid(const PipelineResult& result, Method method) {
+std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
   std::vector<std::string> warnings;
   if (result.after && result.after->inverted > 0) {
     const bool is_untangled = result.smoothing && result.smoothing->untangling;
     const auto [one, several] = element_words(result.before.triangles, result.before.quadrilaterals);
     const bool is_one = result.after->inverted == 1;
-    const bool has_quads = result.before.quadrilaterals > 0;
-    warnings.push_back(fmt::format(
-        "{} inverted {} {} ({} before){}", result.after->inverted, is_one ? one : several,
-        is_one ? "remains" : "remain", result.before.inverted,
-        is_untangled || (has_quads && method == Method::laplacian)
-            ? "; what held vertices fold nothing mends: let some of them go"
-        : has_quads ? "; untangling is of triangles alone, but smoothing by --method laplacian first mends many"
-                    : "; --untangle on mends what can be mended"));
+    warnings.push_back(fmt::format("{} inverted {} {} ({} before){}", result.after->inverted, is_one ? one : several,
+                                   is_one ? "remains" : "remain", result.before.inverted,
+                                   is_untangled ? "; what held vertices fold nothing mends: let some of them go"
+                                                : "; --untangle on mends what can be mended"));
   }
   if (result.quadratic_after && result.quadratic_after->invalid > 0) {
     const QuadraticQuality& after = *result.quadratic_after;
@@ -279,9 +275,10 @@ void warn_of_folds_put_back(RunContext& run, const SmoothingResult& smoothing) {
   const auto& untangling = smoothing.untangling;
   if (untangling && untangling->inverted_after > untangling->inverted_untangled && smoothing.reverted_vertices > 0) {
     run.warn(
-        fmt::format("the never-worse check put vertices back whose moves had inverted valid triangles: {} triangles "
-                    "are not valid now, {} were after the untangling; --guard off leaves them moved",
-                    untangling->inverted_after, untangling->inverted_untangled));
+        fmt::format("the never-worse check put vertices back whose moves had inverted valid {0}: {1} {0} are not valid "
+                    "now, {2} were after the untangling; --guard off leaves them moved",
+                    smoothing.quadrilaterals == 0 ? "triangles" : "elements", untangling->inverted_after,
+                    untangling->inverted_untangled));
   }
 }
 

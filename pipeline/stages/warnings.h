@@ -33,7 +33,7 @@ std::string note_of_layers(const LayersResult& layers);
 
 /// What is to be said of a result of that method in which elements are inverted, or triangles of six nodes not valid,
 /// with the way out.
-std::vector<std::string> warnings_of_invalid(const PipelineResult& result, Method method);
+std::vector<std::string> warnings_of_invalid(const PipelineResult& result);
 
 /// What is carried along since it is flat on purpose, with the way out. There is some.
 std::string note_of_carried_layers(const LayersResult& layers);

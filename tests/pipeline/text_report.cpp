@@ -204,7 +204,7 @@ TEST_CASE("inverted triangles that remain are told, and those that went, too") {
   CHECK(says(text_report(sample::options(), result), "No inverted triangles remain (5 before)."));
   result.after->inverted = 1;
   const auto warning = [&] {
-    const auto warnings = trismooth::warnings_of_invalid(result, trismooth::Method::smart);
+    const auto warnings = trismooth::warnings_of_invalid(result);
     REQUIRE(warnings.size() == 1);
     return warnings.front();
   };

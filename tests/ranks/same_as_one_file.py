@@ -121,6 +121,28 @@ class SameAsOneFile(ranks_tool.RanksTest):
                 if ranks > 1:
                     self.assertIn("quadrilaterals are smoothed by one rank alone", report["smoothing"]["backend_note"])
 
+    def test_quadrilaterals_are_untangled_by_one_rank_to_the_same_bits(self):
+        mesh = self.mixed_mesh()
+        dice = random.Random(5)
+        # Some are moved by about two edges.
+        mesh.points = [(x + dice.uniform(-0.05, 0.05), y + dice.uniform(-0.05, 0.05), z)
+                       if 0.1 < x < 0.9 and 0.1 < y < 0.9 and dice.random() < 0.1 else (x, y, z)
+                       for x, y, z in mesh.points]
+        parts = pieces.cut(mesh, pieces.stripes(mesh, 3), 3, global_ids=False)
+        pieces.write_pieces(self.path("tangled.pvtu"), parts)
+        pieces.write_vtu(self.path("merged.vtu"), pieces.merged(parts))
+        for options in (["--untangle", "on"], ["--method", "mean-ratio"]):
+            whole = self.report("smooth", "merged.vtu", "smooth.vtu", *options)
+            untangling = whole["smoothing"]["untangling"]
+            self.assertGreater(untangling["inverted_before"], 50)
+            self.assertLess(untangling["inverted_after"], untangling["inverted_before"] / 2)
+            for ranks, name in ((2, "tangled.pvtu"), (3, "merged.vtu")):
+                with self.subTest(options=options, ranks=ranks, name=name):
+                    report = self.report_over(ranks, "smooth", name, "out.pvtu", *options)
+                    self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
+                    self.assertEqual(report["smoothing"]["untangling"], untangling)
+                    self.assertIn("quadrilaterals are smoothed by one rank alone", report["smoothing"]["backend_note"])
+
     def notes_of(self, ranks, *arguments):
         return [line for line in self.run_over(ranks, *arguments).err.splitlines() if ": note: " in line]
 
