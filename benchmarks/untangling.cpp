@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +13,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/untangle/untangle.h"
@@ -47,15 +50,31 @@ struct Settings {
   std::int32_t held_folds = 0;
   std::string domain;
   std::string tangle;
+  std::string elements = "triangles";
 };
+
+/// The rings of elements of one list.
+template <class Corners>
+OneRings rings_of(std::span<const Corners> elements, const ValidMesh& valid, Workers& workers) {
+  const TriangleTopology topology = connect_triangles(valid.mesh.vertex_count(), elements, workers);
+  const std::vector<std::uint8_t> reversed(elements.size(), 0);
+  return one_rings(topology, elements, reversed, valid.fixed, workers);
+}
 
 void run(Domain domain, Tangle tangle, std::int32_t vertices, std::uint64_t seed, const Settings& settings,
          Workers& workers, Tally& tally) {
   ValidMesh valid = valid_mesh(domain, vertices, seed);
   fold_by_held_vertices(valid, settings.held_folds, seed);
-  const TriangleTopology topology = connect_triangles(valid.mesh.vertex_count(), valid.mesh.triangles, workers);
-  const std::vector<std::uint8_t> reversed(valid.mesh.triangles.size(), 0);
-  const OneRings rings = one_rings(topology, valid.mesh.triangles, reversed, valid.fixed, workers);
+  ElementList elements = valid.mesh.triangles;
+  CutMesh cut;
+  if (settings.elements != "triangles") {
+    cut = cut_in_quadrilaterals(valid);
+    valid = cut.in_triangles;
+    elements = settings.elements == "quadrilaterals" ? ElementList(cut.quadrilaterals)
+               : settings.elements == "both"         ? ElementList(cut.both)
+                                                     : ElementList(valid.mesh.triangles);
+  }
+  const OneRings rings = elements.visit([&](const auto& listed) { return rings_of(listed, valid, workers); });
   std::vector<Point2<double>> points = tangled_points(valid, tangle, seed);
   const Stopwatch watch;
   const UntangleOutcome outcome = untangle(rings.view(), points, workers);
@@ -70,9 +89,11 @@ void run(Domain domain, Tangle tangle, std::int32_t vertices, std::uint64_t seed
   tally.means.by_energy += outcome.by_energy;
   tally.milliseconds += milliseconds;
   tally.most_milliseconds = std::max(tally.most_milliseconds, milliseconds);
-  for (const Triangle& t : valid.mesh.triangles) {
-    tally.smallest_shape = std::min(tally.smallest_shape, shape(points[t[0]], points[t[1]], points[t[2]]));
-  }
+  elements.visit([&](const auto& listed) {
+    for (const auto& corners : listed) {
+      tally.smallest_shape = std::min(tally.smallest_shape, shape_constant * quotient_at(corners, points));
+    }
+  });
 }
 
 int measure(int argc, char** argv) {
@@ -82,6 +103,10 @@ int measure(int argc, char** argv) {
   app.add_option("--threads", settings.threads, "0: one for each core");
   app.add_option("--meshes", settings.meshes,
                  "meshes of 100 vertices of a kind; a tenth for ten times the vertices, 2 at least");
+  app.add_option("--elements", settings.elements,
+                 "triangles; or each of them cut in three, with seven times the vertices: quadrilaterals, halves "
+                 "(two triangles each), both")
+      ->check(CLI::IsMember({"triangles", "quadrilaterals", "halves", "both"}));
   app.add_option("--domain", settings.domain, "this one alone");
   app.add_option("--tangle", settings.tangle, "this one alone");
   app.add_option("--held-folds", settings.held_folds, "places that fixed vertices fold: nothing mends these");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trismooth/base/machine/workers.h"
@@ -24,6 +25,21 @@ namespace {
 std::int64_t inverted(const std::vector<Triangle>& triangles, const std::vector<test_meshes::Point>& points) {
   return std::ranges::count_if(triangles, [&](const Triangle& t) {
     return !(trismooth::shape_quotient(points[t[0]], points[t[1]], points[t[2]]) > 0);
+  });
+}
+
+/// Triangles that are not counter-clockwise, and quadrilaterals with a corner that does not turn to the left.
+std::int64_t inverted_elements(const std::vector<trismooth::MixedElement>& elements,
+                               const std::vector<test_meshes::Point>& points) {
+  return std::ranges::count_if(elements, [&](const trismooth::MixedElement& element) {
+    const int corners = element[3] < 0 ? 3 : 4;
+    bool turns_left = true;
+    for (int i = 0; i < corners; ++i) {
+      const test_meshes::Point at = points[element[i]];
+      turns_left = turns_left && cross(points[element[(i + 1) % corners]] - at,
+                                       points[element[(i + corners - 1) % corners]] - at) > 0;
+    }
+    return !turns_left;
   });
 }
 
@@ -67,6 +83,32 @@ TEST_CASE("tangled meshes of every domain are untangled", "[untangling]") {
           CHECK(outcome.inverted_before == before);
           CHECK(outcome.inverted_after == 0);
           CHECK(inverted(valid.mesh.triangles, points) == 0);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("tangled quadrilaterals of every domain are untangled, alone and with triangles among them", "[untangling]") {
+  trismooth::Workers workers(2);
+  for (const Domain domain : all_domains) {
+    for (const Tangle tangle : all_tangles) {
+      for (const std::int32_t vertices : {30, 100, 500}) {
+        CAPTURE(name_of(domain), name_of(tangle), vertices);
+        const CutMesh cut = cut_in_quadrilaterals(valid_mesh(domain, vertices, 7));
+        const ValidMesh& valid = cut.in_triangles;
+        for (const auto& elements : {cut.quadrilaterals, cut.both}) {
+          const std::span<const trismooth::MixedElement> listed(elements);
+          REQUIRE(inverted_elements(elements, valid.mesh.points) == 0);
+          const auto topology = trismooth::connect_triangles(valid.mesh.vertex_count(), listed, workers);
+          const std::vector<std::uint8_t> reversed(elements.size(), 0);
+          const trismooth::OneRings rings = trismooth::one_rings(topology, listed, reversed, valid.fixed, workers);
+          auto points = tangled_points(valid, tangle, 5);
+          const std::int64_t before = inverted_elements(elements, points);
+          const auto outcome = trismooth::untangle(rings.view(), points, workers);
+          CHECK(outcome.inverted_before == before);
+          CHECK(outcome.inverted_after == 0);
+          CHECK(inverted_elements(elements, points) == 0);
         }
       }
     }

@@ -2,11 +2,15 @@
 #include "support/tangled_meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
@@ -230,6 +234,65 @@ ValidMesh valid_mesh(Domain domain, std::int32_t vertices, std::uint64_t seed) {
   const auto topology = trismooth::connect_triangles(valid.mesh.vertex_count(), valid.mesh.triangles, workers);
   valid.fixed = trismooth::fixed_vertices(topology, valid.mesh.triangles, valid.constraints());
   return valid;
+}
+
+CutMesh cut_in_quadrilaterals(const ValidMesh& mesh) {
+  const std::vector<Triangle>& triangles = mesh.mesh.triangles;
+  CutMesh cut{mesh, {}, {}};
+  cut.in_triangles.mesh.triangles.clear();
+  cut.in_triangles.regions.clear();
+  std::vector<Point>& points = cut.in_triangles.mesh.points;
+  struct Side {
+    std::int32_t middle;
+    std::vector<std::size_t> triangles;
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Side> sides;
+  const auto side = [&](std::int32_t a, std::int32_t b) -> Side& { return sides[{std::min(a, b), std::max(a, b)}]; };
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = triangles[t][i];
+      const std::int32_t b = triangles[t][(i + 1) % 3];
+      Side& found = side(a, b);
+      if (found.triangles.empty()) {
+        found.middle = static_cast<std::int32_t>(points.size());
+        points.push_back({0.5 * (points[a].x + points[b].x), 0.5 * (points[a].y + points[b].y)});
+      }
+      found.triangles.push_back(t);
+    }
+  }
+  std::vector<std::uint8_t>& fixed = cut.in_triangles.fixed;
+  fixed.resize(points.size() + triangles.size(), 0);
+  for (const auto& [ends, found] : sides) {
+    const bool is_border =
+        found.triangles.size() != 2 ||
+        (!mesh.regions.empty() && mesh.regions[found.triangles[0]] != mesh.regions[found.triangles[1]]);
+    fixed[static_cast<std::size_t>(found.middle)] = is_border ? 1 : 0;
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    const auto middle = static_cast<std::int32_t>(points.size());
+    points.push_back({(points[a].x + points[b].x + points[c].x) / 3, (points[a].y + points[b].y + points[c].y) / 3});
+    for (const auto& [before, corner, behind] : {Triangle{c, a, b}, Triangle{a, b, c}, Triangle{b, c, a}}) {
+      const std::int32_t next = side(corner, behind).middle;
+      const std::int32_t previous = side(before, corner).middle;
+      const std::array halves{Triangle{corner, next, middle}, Triangle{corner, middle, previous}};
+      const trismooth::MixedElement quadrilateral{corner, next, middle, previous};
+      cut.quadrilaterals.push_back(quadrilateral);
+      for (const Triangle& half : halves) {
+        cut.in_triangles.mesh.triangles.push_back(half);
+        if (!mesh.regions.empty()) {
+          cut.in_triangles.regions.push_back(mesh.regions[t]);
+        }
+      }
+      if (cut.quadrilaterals.size() % 2 == 0) {
+        cut.both.push_back(quadrilateral);
+      } else {
+        std::ranges::transform(halves, std::back_inserter(cut.both),
+                               [](const Triangle& half) { return trismooth::as_mixed(half); });
+      }
+    }
+  }
+  return cut;
 }
 
 std::vector<Point> displaced_points(const ValidMesh& mesh, double part, double edges, std::uint64_t seed) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
 
 #include "support/test_meshes.h"
@@ -48,6 +49,14 @@ struct ValidMesh {
 
 /// About `vertices` random vertices, at least 16, in random order.
 ValidMesh valid_mesh(Domain domain, std::int32_t vertices, std::uint64_t seed);
+
+/// The mesh with every triangle cut in three quadrilaterals, from its middle to those of its sides.
+struct CutMesh {
+  ValidMesh in_triangles;  ///< with each quadrilateral as two triangles, of the same vertices
+  std::vector<trismooth::MixedElement> quadrilaterals;
+  std::vector<trismooth::MixedElement> both;  ///< every second quadrilateral is two triangles
+};
+CutMesh cut_in_quadrilaterals(const ValidMesh& mesh);
 
 /// What is done to the free vertices of a mesh.
 enum class Tangle : std::uint8_t {
