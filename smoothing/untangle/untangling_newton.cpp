@@ -40,24 +40,30 @@ void add_terms(const MixedElement& quadrilateral, std::vector<Term>& terms) {
   }
 }
 
-/// Calls visit(term, i, next, previous) for the terms of an element that a vertex is a corner of, number i of the term.
-/// `terms`: of the element; term: the number among them. `corner`: of the vertex in the element; next, previous: those
-/// of its entries that follow the vertex in the term, and come before it.
-template <class Visit>
-void for_terms_at(std::int32_t v, std::span<const Term> terms, const TriangleCorner<int>& corner, const Visit& visit) {
-  const Triangle& corners = terms[0].corners;
-  visit(0, corners[0] == v ? 0 : corners[1] == v ? 1 : 2, corner.next, corner.previous);
+/// A term that a vertex is in.
+struct TermAt {
+  std::int64_t term;
+  int corner;  ///< which of its corners the vertex is
+  // The places of the vertex's row where the corners behind it and before it are.
+  int next;
+  int previous;
+};
+
+/// Adds the terms of an element that a vertex is in. `first`: of the element; `places`: its other vertices in the row.
+void add_terms_at(std::int32_t v, std::int64_t first, const TriangleCorner<int>& places, std::span<const Term> terms,
+                  std::vector<TermAt>& found) {
+  const Triangle& corners = terms[static_cast<std::size_t>(first)].corners;
+  found.push_back({first, corners[0] == v ? 0 : corners[1] == v ? 1 : 2, places.next, places.previous});
 }
-template <class Visit>
-void for_terms_at(std::int32_t v, std::span<const Term> terms, const QuadrilateralCorner<int>& corner,
-                  const Visit& visit) {
+void add_terms_at(std::int32_t v, std::int64_t first, const QuadrilateralCorner<int>& places,
+                  std::span<const Term> terms, std::vector<TermAt>& found) {
   int own = 0;
-  while (terms[static_cast<std::size_t>(own)].corners[0] != v) {
+  while (terms[static_cast<std::size_t>(first + own)].corners[0] != v) {
     ++own;
   }
-  visit(own, 0, corner.next, corner.previous);
-  visit((own + 1) % 4, 2, corner.next, corner.opposite);
-  visit((own + 3) % 4, 1, corner.opposite, corner.previous);
+  found.push_back({first + own, 0, places.next, places.previous});
+  found.push_back({first + (own + 1) % 4, 2, places.next, places.opposite});
+  found.push_back({first + (own + 3) % 4, 1, places.opposite, places.previous});
 }
 
 /// A symmetric matrix of 2 x 2 blocks, one row a vertex that may move: the diagonal block and one for each place in its
@@ -79,15 +85,15 @@ class RegularisedMinimiser {
  public:
   RegularisedMinimiser(const Patch& patch, std::span<Point2<double>> points, Workers& workers)
       : patch_(patch), points_(points), workers_(workers) {
-    first_terms_.reserve(patch_.elements.size());
+    std::vector<std::int64_t> first_terms;
     for (const MixedElement& element : patch_.elements) {
-      first_terms_.push_back(std::ssize(terms_));
+      first_terms.push_back(std::ssize(terms_));
       with_kind(element, [&](const auto& corners) { add_terms(corners, terms_); });
     }
     find_target_areas();
     derivatives_.resize(terms_.size());
     gradient_.resize(static_cast<std::size_t>(patch_.free_count));
-    lay_out_matrix();
+    lay_out_matrix(first_terms);
   }
 
   void run(int most_steps) {
@@ -124,11 +130,23 @@ class RegularisedMinimiser {
   }
 
  private:
-  void lay_out_matrix() {
+  /// `first_terms`: of each element.
+  void lay_out_matrix(std::span<const std::int64_t> first_terms) {
     const RingView rings = patch_.rings();
     matrix_.diagonal.resize(gradient_.size());
     matrix_.offsets.assign(1, 0);
+    terms_at_offsets_.assign(1, 0);
     for (std::int32_t v = 0; v < patch_.free_count; ++v) {
+      const std::span<const std::int32_t> elements = patch_.elements_around(v);
+      const auto add = [&](const auto& places) {
+        const std::int32_t element = elements[static_cast<std::size_t>(places.next)];
+        add_terms_at(v, first_terms[static_cast<std::size_t>(element)], places, terms_, terms_at_);
+      };
+      rings.with_ring(v, [&](const auto& ring) {
+        for_elements_around(
+            ring, [](int place) { return place; }, add);
+      });
+      terms_at_offsets_.push_back(std::ssize(terms_at_));
       std::ranges::copy(rings[v], std::back_inserter(matrix_.columns));
       if (rings.has_quadrilaterals()) {
         std::ranges::copy(rings.mixed(v).opposites, std::back_inserter(matrix_.columns));
@@ -254,9 +272,10 @@ class RegularisedMinimiser {
     std::ranges::fill(row, BlockMatrix::Block{0, 0, 0, 0});
     BlockMatrix::Diagonal diagonal{0, 0, 0};
     Point2<double> gradient{0, 0};
-    const auto add_term = [&](std::int64_t t, int i, int next, int previous) {
-      const RegularisedEnergy::Derivatives& of_term = derivatives_[static_cast<std::size_t>(t)];
-      const std::array<double, 3>& into_t = terms_[static_cast<std::size_t>(t)].ideal().into_t;
+    for (std::int64_t k = terms_at_offsets_[v]; k < terms_at_offsets_[v + 1]; ++k) {
+      const auto [t, i, next, previous] = terms_at_[k];
+      const RegularisedEnergy::Derivatives& of_term = derivatives_[t];
+      const std::array<double, 3>& into_t = terms_[t].ideal().into_t;
       // J^T by_t = (by_t.y, -by_t.x).
       gradient.x += into_e[i] * of_term.by_e.x + into_t[i] * of_term.by_t.y;
       gradient.y += into_e[i] * of_term.by_e.y - into_t[i] * of_term.by_t.x;
@@ -266,29 +285,20 @@ class RegularisedMinimiser {
       diagonal.yy += own.yy;
       add(row[next], block_of(of_term, into_t, i, (i + 1) % 3));
       add(row[previous], block_of(of_term, into_t, i, (i + 2) % 3));
-    };
-    const std::span<const std::int32_t> elements = patch_.elements_around(v);
-    const auto add_element = [&](const auto& places) {
-      const std::int64_t first = first_terms_[elements[places.next]];
-      for_terms_at(v, std::span(terms_).subspan(static_cast<std::size_t>(first)), places,
-                   [&](int term, int i, int next, int previous) { add_term(first + term, i, next, previous); });
-    };
-    patch_.rings().with_ring(v, [&](const auto& ring) {
-      for_elements_around(
-          ring, [](int place) { return place; }, add_element);
-    });
+    }
     matrix_.diagonal[v] = diagonal;
     gradient_[v] = gradient;
   }
 
   /// The Newton step, into step_; false where there is none.
   bool find_step() {
-    const auto apply = [&](const Point2<double>* x, std::int32_t v) {
+    const auto free = static_cast<std::uint32_t>(patch_.free_count);  // which no_corner, without its sign, is beyond
+    const auto apply = [&, free](const Point2<double>* x, std::int32_t v) {
       const BlockMatrix::Diagonal& d = matrix_.diagonal[v];
       Point2<double> sum{d.xx * x[v].x + d.xy * x[v].y, d.xy * x[v].x + d.yy * x[v].y};
       for (std::int64_t k = matrix_.offsets[v]; k < matrix_.offsets[v + 1]; ++k) {
         const std::int32_t other = matrix_.columns[k];
-        if (other < patch_.free_count && other != no_corner) {
+        if (static_cast<std::uint32_t>(other) < free) {
           const BlockMatrix::Block& b = matrix_.blocks[k];
           sum.x += b.xx * x[other].x + b.xy * x[other].y;
           sum.y += b.yx * x[other].x + b.yy * x[other].y;
@@ -349,7 +359,8 @@ class RegularisedMinimiser {
   Workers& workers_;
   RegularisedEnergy energy_;
   std::vector<Term> terms_;
-  std::vector<std::int64_t> first_terms_;                    ///< of each element; the others follow
+  std::vector<TermAt> terms_at_;                             ///< of one vertex that may move after the other
+  std::vector<std::int64_t> terms_at_offsets_;               ///< of the vertices, into these
   std::vector<double> targets_;                              ///< A* of each term
   std::vector<RegularisedEnergy::Derivatives> derivatives_;  ///< of each term's energy, by e and t
   std::vector<Point2<double>> gradient_;
