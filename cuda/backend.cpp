@@ -68,7 +68,7 @@ SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, D
 
 class RingSmoother final : public PreparedSmoother {
  public:
-  /// Of triangles, or of MixedElements: without sliding then.
+  /// Of triangles, or of MixedElements.
   template <class Corners>
   RingSmoother(const MeshRings& mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
                const SmoothingOptions& options)
@@ -80,7 +80,7 @@ class RingSmoother final : public PreparedSmoother {
     const Stopwatch watch;
     smoother_ = make_device_smoother(context_, uploaded(copier_, mesh.rings), copier_.uploaded(local), options);
     if (mesh.slidable.any()) {
-      smoother_->slide_on(mesh.slidable, mesh.slidable.flags_of_triangles(mesh.reversed));
+      smoother_->slide_on(mesh.slidable, mesh.slidable.flags_of_elements(mesh.reversed));
     }
     is_to_slide_ = mesh.slidable.is_wanted();
     if (options.untangles()) {
@@ -271,7 +271,7 @@ class CudaBackend final : public Backend {
     if (mesh.slidable.is_wanted()) {
       require_sliding(options);
     }
-    if (mesh.slidable.any() && (!can_slide(options) || mesh.rings.neighbours.empty())) {
+    if (slides_on_host(mesh, options)) {
       return cpu_backend().prepare(mesh, triangles, local, options);
     }
     return on_device(std::make_unique<RingSmoother>(mesh, triangles, local, options));
@@ -289,6 +289,9 @@ class CudaBackend final : public Backend {
     }
     const DeviceScope scope(device_);
     require_device();
+    if (slides_on_host(mesh, options)) {
+      return cpu_backend().prepare_mixed(std::move(mesh), elements, local, options);
+    }
     return on_device(std::make_unique<RingSmoother>(mesh, elements, local, options));
   }
 
@@ -321,6 +324,10 @@ class CudaBackend final : public Backend {
   }
 
  private:
+  /// Whether something may slide that a device has no way for.
+  static bool slides_on_host(const MeshRings& mesh, const SmoothingOptions& options) {
+    return mesh.slidable.any() && (!can_slide(options) || mesh.rings.neighbours.empty());
+  }
   /// Smooths where it was made.
   std::unique_ptr<PreparedSmoother> on_device(std::unique_ptr<PreparedSmoother> smoother) const {
     return device_ ? std::make_unique<SmootherOnDevice>(*device_, std::move(smoother)) : std::move(smoother);

@@ -207,7 +207,7 @@ class Plan::Implementation {
   }
 
   std::vector<std::uint8_t> reversed_of_slidable() {
-    const DeviceBuffer<std::int32_t> numbers(context_, slidable().triangle_numbers);
+    const DeviceBuffer<std::int32_t> numbers(context_, slidable().element_numbers);
     return gather_bytes(context_, topology_.reversed(), numbers);
   }
 

@@ -139,7 +139,7 @@ class SlidingRun {
         return ElementRounds{outcome.rounds, outcome.threshold, !outcome.held.empty()};
       };
       result.guard_rounds += settle_in_turn(options_.guard, settle_lines, guard_elements, [&](double threshold) {
-        return slide_->settle_triangles(input.before, threshold, list);
+        return slide_->settle_held_elements(input.before, threshold, list);
       });
       SlidingResult sliding = slide_->lines();
       if (ran_to_its_end(result.stop_reason) &&

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/quality/quadrilateral_quality.h"
@@ -15,6 +17,12 @@
 ///
 /// A triangle has three corners, a quadrilateral four: MixedElement with no no_corner among them.
 namespace trismooth {
+
+/// The corners of a Triangle or of a MixedElement, in turn: three or four. Views the element.
+template <std::size_t most>
+constexpr std::span<const std::int32_t> corners_of(const std::array<std::int32_t, most>& element) {
+  return std::span<const std::int32_t>(element).first(static_cast<std::size_t>(corner_count(element)));
+}
 
 /// The corners from the one on of which number(v) is the smallest, in the same sense of rotation: canonical order where
 /// the input has other numbers than the corners.
@@ -45,7 +53,9 @@ template <class T>
 using TrianglePoints = std::array<Point2<T>, 3>;
 using CornerPoints = TrianglePoints<double>;
 
-using QuadrilateralPoints = std::array<Point2<double>, 4>;
+template <class T>
+using FourPoints = std::array<Point2<T>, 4>;
+using QuadrilateralPoints = FourPoints<double>;
 
 /// The points of these corners, where position(v) is vertex v.
 template <class Position>
@@ -53,8 +63,9 @@ constexpr TRISMOOTH_HOST_DEVICE auto points_of(const Triangle& corners, const Po
   return TrianglePoints<decltype(position(0).x)>{position(corners[0]), position(corners[1]), position(corners[2])};
 }
 template <class Position>
-constexpr QuadrilateralPoints points_of(const MixedElement& corners, const Position& position) {
-  return {position(corners[0]), position(corners[1]), position(corners[2]), position(corners[3])};
+constexpr TRISMOOTH_HOST_DEVICE auto points_of(const MixedElement& corners, const Position& position) {
+  return FourPoints<decltype(position(0).x)>{position(corners[0]), position(corners[1]), position(corners[2]),
+                                             position(corners[3])};
 }
 /// The points of these corners, where points[v] is vertex v.
 template <class Points>
@@ -68,17 +79,17 @@ template <class Points>
 requires requires(const Points& points) {
   points[0];
 }
-constexpr QuadrilateralPoints points_of(const MixedElement& corners, const Points& points) {
+constexpr TRISMOOTH_HOST_DEVICE auto points_of(const MixedElement& corners, const Points& points) {
   return points_of(corners, [&](std::int32_t v) { return points[v]; });
 }
 
 /// Calls body with the element, a Triangle where it is one.
 template <class Body>
-constexpr auto with_kind(const Triangle& triangle, const Body& body) {
+constexpr TRISMOOTH_HOST_DEVICE auto with_kind(const Triangle& triangle, const Body& body) {
   return body(triangle);
 }
 template <class Body>
-constexpr auto with_kind(const MixedElement& element, const Body& body) {
+constexpr TRISMOOTH_HOST_DEVICE auto with_kind(const MixedElement& element, const Body& body) {
   return element[3] == no_corner ? body(Triangle{element[0], element[1], element[2]}) : body(element);
 }
 
@@ -91,7 +102,8 @@ template <class T>
 constexpr TRISMOOTH_HOST_DEVICE T shape(const TrianglePoints<T>& corners) {
   return shape(corners[0], corners[1], corners[2]);
 }
-constexpr double shape_quotient(const QuadrilateralPoints& corners) {
+template <class T>
+constexpr TRISMOOTH_HOST_DEVICE T shape_quotient(const FourPoints<T>& corners) {
   return shape_quotient(corners[0], corners[1], corners[2], corners[3]);
 }
 constexpr double shape(const QuadrilateralPoints& corners) {
@@ -100,7 +112,7 @@ constexpr double shape(const QuadrilateralPoints& corners) {
 
 /// The shape quotient of an element of either kind, where points[v], or points(v), is vertex v.
 template <class Corners, class Points>
-constexpr double quotient_at(const Corners& corners, const Points& points) {
+constexpr TRISMOOTH_HOST_DEVICE auto quotient_at(const Corners& corners, const Points& points) {
   return with_kind(corners, [&](const auto& element) { return shape_quotient(points_of(element, points)); });
 }
 

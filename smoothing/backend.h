@@ -85,8 +85,8 @@ class Backend {
   /// Whether it has prepare_mixed().
   virtual bool takes_quadrilaterals() const { return false; }
 
-  /// prepare() of a mesh with quadrilaterals, for whole meshes without sliding. Throws std::invalid_argument where the
-  /// backend smooths triangles alone.
+  /// prepare() of a mesh with quadrilaterals, for whole meshes. Throws std::invalid_argument where the backend smooths
+  /// triangles alone.
   // NOLINTNEXTLINE(performance-unnecessary-value-param): who overrides it takes the mesh.
   virtual std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings /*mesh*/,
                                                           std::span<const MixedElement> /*elements*/,

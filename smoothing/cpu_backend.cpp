@@ -49,7 +49,7 @@ constexpr const char* untangling_over_parts =
 
 class CpuSmoother final : public PreparedSmoother {
  public:
-  /// Of triangles, or of MixedElements: without sliding then, and no part of another mesh.
+  /// Of triangles, or of MixedElements: no part of another mesh then.
   template <class Corners>
   CpuSmoother(MeshRings mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
               const SmoothingOptions& options, std::unique_ptr<SweepOffloads> offloads)
@@ -75,7 +75,7 @@ class CpuSmoother final : public PreparedSmoother {
     }
     if (mesh.slidable.is_wanted()) {
       std::vector<std::int32_t> numbers = packed_numbers(mesh.slidable, rings_.input_index);
-      const std::vector<std::uint8_t> reversed = mesh.slidable.flags_of_triangles(mesh.reversed);
+      const std::vector<std::uint8_t> reversed = mesh.slidable.flags_of_elements(mesh.reversed);
       slidable_ = PackedSlidable(std::move(mesh.slidable), reversed, std::move(numbers));
     }
     if (options.untangles()) {
@@ -325,7 +325,7 @@ class CpuSmoother final : public PreparedSmoother {
     };
     run.result.guard_rounds += settle_in_turn(
         options_.guard, [&] { return lines.settle(reverted); }, guard_elements,
-        [&](double threshold) { return lines.settle_triangles(threshold, reverted); });
+        [&](double threshold) { return lines.settle_held_elements(threshold, reverted); });
     list(run, std::span<const std::int32_t>(reverted));
     SlidingResult& sliding = *run.result.sliding;
     if (ran_to_its_end(run.result.stop_reason) &&
@@ -381,7 +381,7 @@ class CpuSmoother final : public PreparedSmoother {
       stored.push_back(points[v]);
     }
     SlideChains chains = slidable_.chains(stored, storage, frame);
-    chains.renumber(slidable_.numbers(), slidable_.packed_triangles());
+    chains.renumber(slidable_.numbers(), slidable_.packed_elements());
     return chains;
   }
 
@@ -524,10 +524,7 @@ class CpuBackend final : public Backend {
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
-    require_available(options);
-    if (options.proposal && mesh.slidable.is_wanted()) {
-      throw std::invalid_argument("a proposal says nothing of vertices that slide: without sliding");
-    }
+    require_available(options, mesh);
     return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, nullptr);
   }
 
@@ -536,15 +533,18 @@ class CpuBackend final : public Backend {
   std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
                                                   std::span<const Point2<double>> local,
                                                   const SmoothingOptions& options) const override {
-    require_available(options);
+    require_available(options, mesh);
     return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, options, nullptr);
   }
 
  private:
-  static void require_available(const SmoothingOptions& options) {
+  static void require_available(const SmoothingOptions& options, const MeshRings& mesh) {
     options.validate();
     if (options.order == Order::unordered) {
       throw std::invalid_argument("order 'unordered' exists for CUDA only");
+    }
+    if (options.proposal && mesh.slidable.is_wanted()) {
+      throw std::invalid_argument("a proposal says nothing of vertices that slide: without sliding");
     }
   }
 };

@@ -255,8 +255,7 @@ class Rounds {
       } else {
         const std::int32_t fan = view_.held.fan_of[v - view_.rings.size];
         for (std::int32_t k = view_.held.fans[fan]; k < view_.held.fans[fan + 1]; ++k) {
-          judge_again(view_.held.sides[k].from);
-          judge_again(view_.held.sides[k].to);
+          view_.held.sides[k].for_each([&](std::int32_t other) { judge_again(other); });
         }
       }
     }

@@ -8,19 +8,19 @@
 
 namespace trismooth::cuda {
 
-/// What the device says of the lines that vertices are held to, and of the triangles without a free vertex. All zeros
+/// What the device says of the lines that vertices are held to, and of the elements without a free vertex. All zeros
 /// to begin with.
 struct LineVerdict {
   unsigned long long distance;  ///< the bits of LineDeviation::distance, which rise with it...
   unsigned long long relative;  ///< ...and of relative
-  unsigned long long before;    ///< as GuardKeys, of those triangles...
+  unsigned long long before;    ///< as GuardKeys, of those elements...
   unsigned long long worsened;  ///< ...of which a vertex has moved
   std::uint32_t beyond;         ///< edges that are not good, and sliders of which a copy alone has moved
   std::uint32_t slid;           ///< vertices that are elsewhere, those of all copies
 
   /// Whether no line is beyond what is allowed.
   TRISMOOTH_HOST_DEVICE bool has_good_lines() const { return beyond == 0; }
-  /// Whether nobody has to go back: no triangle offends, either. `others`: GuardKeys::before of the others.
+  /// Whether nobody has to go back: no element offends, either. `others`: GuardKeys::before of the others.
   TRISMOOTH_HOST_DEVICE bool is_good(unsigned long long others) const {
     return has_good_lines() && worsened <= (before > others ? before : others);
   }

@@ -48,11 +48,11 @@ class Pieces {
 
 }  // namespace
 
-DeviceSlideTriangles::DeviceSlideTriangles(Context& context, const SlideTriangles& packed)
+DeviceSlideElements::DeviceSlideElements(Context& context, const SlideElements& packed)
     : begins(context, packed.begins), sides(context, packed.sides), held(context, packed.held) {}
 
 DeviceChains::DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers,
-                           DeviceSlideTriangles& triangles)
+                           DeviceSlideElements& elements)
     : context_(&context) {
   Pieces pieces;
   const std::size_t at_chains = pieces.add(chains.chains);
@@ -93,8 +93,8 @@ DeviceChains::DeviceChains(Context& context, const SlideChains& chains, std::spa
            at(at_allowed, chains.allowed),
            at(at_lengths, chains.lengths),
            at(at_sliders, chains.sliders),
-           triangles.begins.data(),
-           triangles.sides.data(),
+           elements.begins.data(),
+           elements.sides.data(),
            chains.curve};
   places_ = {at(at_places, chains.places)};
 }

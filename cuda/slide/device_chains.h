@@ -11,13 +11,13 @@
 
 namespace trismooth::cuda {
 
-/// SlideTriangles in device memory, corners in packed numbers.
-struct DeviceSlideTriangles {
+/// SlideElements in device memory, corners in packed numbers.
+struct DeviceSlideElements {
   DeviceBuffer<std::int32_t> begins;
   DeviceBuffer<FanSide> sides;
-  DeviceBuffer<Triangle> held;
+  DeviceBuffer<MixedElement> held;
 
-  DeviceSlideTriangles(Context& context, const SlideTriangles& packed);
+  DeviceSlideElements(Context& context, const SlideElements& packed);
 };
 
 /// Chains in device memory, with what a run writes: the places of the knots. One copy brings all of it over.
@@ -25,9 +25,9 @@ class DeviceChains {
  public:
   /// None.
   DeviceChains() = default;
-  /// `numbers`: packed, of the vertices that the chains name; as SlideChains::renumber(). `triangles` outlive it.
+  /// `numbers`: packed, of the vertices that the chains name; as SlideChains::renumber(). `elements` outlive it.
   DeviceChains(Context& context, const SlideChains& chains, std::span<const std::int32_t> numbers,
-               DeviceSlideTriangles& triangles);
+               DeviceSlideElements& elements);
 
   const SlideView& view() const { return view_; }
   SlidePlaces places() const { return places_; }

@@ -24,7 +24,7 @@ DeviceSlide::DeviceSlide(Context& context, const VertexOrder& order, Slidable sl
   std::vector<std::int32_t> numbers = find_packed_numbers(context, order, slidable.vertices);
   numbers_ = DeviceBuffer<std::int32_t>(context, numbers);
   slidable_ = PackedSlidable(std::move(slidable), reversed, std::move(numbers));
-  triangles_.emplace(context, slidable_.packed_triangles());
+  elements_.emplace(context, slidable_.packed_elements());
   fan_of_.fill_bytes(0xFF);
   find_fans(context, numbers_, order.free_count(), fan_of_.data());
 }
@@ -50,7 +50,7 @@ bool DeviceSlide::find_lines() {
   if (!local_.any()) {
     return false;
   }
-  device_ = DeviceChains(*context_, local_, slidable_.numbers(), *triangles_);
+  device_ = DeviceChains(*context_, local_, slidable_.numbers(), *elements_);
   return true;
 }
 
@@ -79,7 +79,7 @@ void DeviceSlide::judge(const Point2<double>* before, bool guards, LineVerdict* 
   }
   const SlidPoints slid = slid_points();
   place_slid(*context_, slid, before, static_cast<std::int32_t>(held_after_.size()), device_frame_, storage_, verdict);
-  judge_lines(*context_, slid, triangles_->held.data(), guards ? static_cast<std::int32_t>(triangles_->held.size()) : 0,
+  judge_lines(*context_, slid, elements_->held.data(), guards ? static_cast<std::int32_t>(elements_->held.size()) : 0,
               before, verdict);
 }
 

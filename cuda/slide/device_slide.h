@@ -27,7 +27,7 @@ namespace trismooth::cuda {
 /// that; vertices slide on the device, among the sweeps.
 class DeviceSlide {
  public:
-  /// `order` outlives it. `reversed`: as MeshRings::reversed, of the Slidable's triangles. Waits for the device.
+  /// `order` outlives it. `reversed`: as MeshRings::reversed, of the Slidable's elements. Waits for the device.
   DeviceSlide(Context& context, const VertexOrder& order, Slidable slidable, std::vector<std::uint8_t> reversed);
 
   /// Brings the vertices over for a run, as they are stored, and has a thread find the lines. `stored`, `frame`: on the
@@ -57,7 +57,7 @@ class DeviceSlide {
   void aim(const DeviceTargets<T>& targets, const Point2<double>* before);
 
   /// Queues the finding of where everybody is to be stored, and what is to be said of that. `before`: as GuardInput.
-  /// `guards`: triangles count, too.
+  /// `guards`: elements count, too.
   void judge(const Point2<double>* before, bool guards, LineVerdict* verdict);
   /// Puts back what the lines do not allow, on the host, for the guard to look at. Calls reverted(vertex, position)
   /// with the caller's number of each vertex that goes back, and where it would have been stored. Returns the rounds.
@@ -67,14 +67,15 @@ class DeviceSlide {
     is_judged_by_host_ = true;
     return put_back(before, reverted, [](SlideGuard& guard, auto& back) { return guard.settle(back); });
   }
-  /// settle() of triangles without a free vertex: see SlideGuard::settle_triangles().
+  /// settle() of elements without a free vertex: see SlideGuard::settle_held_elements().
   template <class Reverted>
-  std::int64_t settle_triangles(const Point2<double>* before, double threshold_of_others, const Reverted& reverted) {
-    if (local_.held_triangles().empty()) {
+  std::int64_t settle_held_elements(const Point2<double>* before, double threshold_of_others,
+                                    const Reverted& reverted) {
+    if (local_.held_elements().empty()) {
       return 0;
     }
     return put_back(before, reverted, [threshold_of_others](SlideGuard& guard, auto& back) {
-      return guard.settle_triangles(threshold_of_others, back);
+      return guard.settle_held_elements(threshold_of_others, back);
     });
   }
   /// What the guard on the device has to know.
@@ -131,13 +132,13 @@ class DeviceSlide {
   Context* context_;
   const VertexOrder* order_;
   PackedSlidable slidable_;
-  std::optional<DeviceSlideTriangles> triangles_;  ///< always there, from the constructor on
-  DeviceBuffer<std::int32_t> vertices_;            ///< of the Slidable: their numbers in the mesh
-  DeviceBuffer<std::int32_t> numbers_;             ///< their packed numbers
-  std::vector<std::int32_t> by_packed_;      ///< their numbers in it, ascending by packed number; found when needed
-  DeviceBuffer<Point2<double>> points_;      ///< one for each of them
-  DeviceBuffer<Point2<double>> held_after_;  ///< HeldView
-  DeviceBuffer<std::int32_t> fan_of_;        ///< HeldView
+  std::optional<DeviceSlideElements> elements_;  ///< always there, from the constructor on
+  DeviceBuffer<std::int32_t> vertices_;          ///< of the Slidable: their numbers in the mesh
+  DeviceBuffer<std::int32_t> numbers_;           ///< their packed numbers
+  std::vector<std::int32_t> by_packed_;          ///< their numbers in it, ascending by packed number; found when needed
+  DeviceBuffer<Point2<double>> points_;          ///< one for each of them
+  DeviceBuffer<Point2<double>> held_after_;      ///< HeldView
+  DeviceBuffer<std::int32_t> fan_of_;            ///< HeldView
   DeviceBuffer<FanTarget> targets_;
   DeviceBuffer<Point2<double>> stored_slid_;  ///< SlidPoints
 

@@ -95,21 +95,23 @@ struct JudgeLines {
   }
 };
 
-struct JudgeHeldTriangles {
+struct JudgeHeldElements {
   SlidPoints slid;
-  const Triangle* triangles;
+  const MixedElement* elements;
   const Point2<double>* before;
   LineVerdict* verdict;
 
-  __device__ void operator()(std::uint32_t t) const {
-    const auto after = points_of(triangles[t], [&](std::int32_t v) { return slid.after[v - slid.free_count]; });
-    const auto was_at = points_of(triangles[t], before);
-    if (after == was_at) {
-      return;
-    }
-    const double was = shape_quotient(was_at);
-    atomicMax(&verdict->before, falling_key(was));
-    atomicMax(&verdict->worsened, falling_key(worsened_quotient(was, shape_quotient(after))));
+  __device__ void operator()(std::uint32_t e) const {
+    with_kind(elements[e], [&](const auto& corners) {
+      const auto after = points_of(corners, [&](std::int32_t v) { return slid.after[v - slid.free_count]; });
+      const auto was_at = points_of(corners, before);
+      if (after == was_at) {
+        return;
+      }
+      const double was = shape_quotient(was_at);
+      atomicMax(&verdict->before, falling_key(was));
+      atomicMax(&verdict->worsened, falling_key(worsened_quotient(was, shape_quotient(after))));
+    });
   }
 };
 
@@ -142,10 +144,10 @@ void place_slid(const Context& context, const SlidPoints& slid, const Point2<dou
   for_each(context, static_cast<std::uint32_t>(slid.slider_count), PlaceSlid{slid, before, frame, storage, verdict});
 }
 
-void judge_lines(const Context& context, const SlidPoints& slid, const Triangle* triangles, std::int32_t triangle_count,
-                 const Point2<double>* before, LineVerdict* verdict) {
+void judge_lines(const Context& context, const SlidPoints& slid, const MixedElement* elements,
+                 std::int32_t element_count, const Point2<double>* before, LineVerdict* verdict) {
   for_each(context, static_cast<std::uint32_t>(slid.slider_count), JudgeLines{slid, before, verdict});
-  for_each(context, static_cast<std::uint32_t>(triangle_count), JudgeHeldTriangles{slid, triangles, before, verdict});
+  for_each(context, static_cast<std::uint32_t>(element_count), JudgeHeldElements{slid, elements, before, verdict});
 }
 
 void write_slid(const Context& context, const SlidPoints& slid, const Point2<double>* before,

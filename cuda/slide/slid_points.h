@@ -29,10 +29,10 @@ struct SlidPoints {
 void place_slid(const Context& context, const SlidPoints& slid, const Point2<double>* before, std::int32_t held_count,
                 const LocalFrame* frame, Storage storage, LineVerdict* verdict);
 
-/// Queues the judging of the edges of the lines and of `triangle_count` triangles without a free vertex, which adds to
+/// Queues the judging of the edges of the lines and of `element_count` elements without a free vertex, which adds to
 /// the verdict: what SlideGuard does on the host, but that nobody goes back.
-void judge_lines(const Context& context, const SlidPoints& slid, const Triangle* triangles, std::int32_t triangle_count,
-                 const Point2<double>* before, LineVerdict* verdict);
+void judge_lines(const Context& context, const SlidPoints& slid, const MixedElement* elements,
+                 std::int32_t element_count, const Point2<double>* before, LineVerdict* verdict);
 
 /// Queues the writing of those whose slid.after is not where they were to stored[input_index[v]]: where nobody has to
 /// go back, as `state` and `verdict` say; null: in any case.

@@ -14,7 +14,7 @@ namespace trismooth::cuda {
 
 namespace {
 
-/// Threads of a team, which look at the triangles of a slider, one each. What counts is how soon one slider is done: so
+/// Threads of a team, which look at the elements of a slider, one each. What counts is how soon one slider is done: so
 /// it has a warp of its own, and does not wait for the branches of others.
 constexpr int team_size = 32;
 /// Few in a block: a line has few vertices, and each takes long.
@@ -84,8 +84,7 @@ __device__ void settle(const SlideWork<T>& work, const SlideTeam& team, bool is_
     }
     const std::int32_t fan = work.view.fan_at[slider.knot + copy * chain.count];
     for (std::int32_t i = work.view.fans[fan] + team.lane; i < work.view.fans[fan + 1]; i += team_size) {
-      mark_free(work.view.sides[i].from);
-      mark_free(work.view.sides[i].to);
+      work.view.sides[i].for_each(mark_free);
     }
   }
   if (team.is_first()) {

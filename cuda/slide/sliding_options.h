@@ -14,7 +14,7 @@ inline void require_sliding(const SmoothingOptions& options) {
   }
 }
 
-/// Whether the device can do what the options ask for while vertices slide: the smallest shape counts triangles without
+/// Whether the device can do what the options ask for while vertices slide: the smallest shape counts elements without
 /// a free vertex, which it takes for fixed.
 inline bool can_slide(const SmoothingOptions& options) {
   return !options.measures_shape();

@@ -12,7 +12,7 @@ struct ListNear {
   TriangleList triangles;
   const std::uint8_t* fixed;
   const std::int32_t* regions;
-  NearTriangle* list;
+  NearElement* list;
   std::uint32_t list_size;
   std::uint32_t* count;
 
@@ -24,7 +24,7 @@ struct ListNear {
     }
     if (const std::uint32_t place = atomicAdd(count, 1U); place < list_size) {
       list[place] = {static_cast<std::int32_t>(t),
-                     corners,
+                     {corners[0], corners[1], corners[2], no_corner},
                      {reasons[0], reasons[1], reasons[2]},
                      regions == nullptr ? 0 : regions[t]};
     }
@@ -55,10 +55,10 @@ NearLines near_lines(Context& context, const TriangleList& triangles, std::int32
   const auto triangle_count = static_cast<std::uint32_t>(triangles.count);
   const auto vertices = static_cast<std::uint32_t>(vertex_count);
   return {
-      listed<NearTriangle>(context, triangle_count,
-                           [&](NearTriangle* list, std::uint32_t size, std::uint32_t* count) {
-                             for_each(context, triangle_count, ListNear{triangles, fixed, regions, list, size, count});
-                           }),
+      listed<NearElement>(context, triangle_count,
+                          [&](NearElement* list, std::uint32_t size, std::uint32_t* count) {
+                            for_each(context, triangle_count, ListNear{triangles, fixed, regions, list, size, count});
+                          }),
       listed<std::int32_t>(context, vertices, [&](std::int32_t* list, std::uint32_t size, std::uint32_t* count) {
         for_each(context, vertices, ListOthers{fixed, list, size, count});
       })};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/rings/analysed_mesh.h"
 
-#include <concepts>
-#include <stdexcept>
 #include <utility>
 
 #include "trismooth/base/machine/workers.h"
@@ -17,23 +15,19 @@ void AnalysedMesh::connect(std::int32_t vertex_count, std::span<const Corners> e
   connectivity_ = MeshConnectivity(vertex_count, elements, workers);
   mesh_.fixed = connectivity_.fixed_vertices(elements, constraints, workers);
   mesh_.components = connectivity_.components().components;
-}
-
-AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
-                           const Constraints& constraints, Workers& workers) {
-  connect(vertex_count, triangles, constraints, workers);
   if (constraints.slide.along != Slide::off) {
     slide_ = KeptConstraints({.regions = constraints.regions, .slide = constraints.slide});
   }
 }
 
+AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles,
+                           const Constraints& constraints, Workers& workers) {
+  connect(vertex_count, triangles, constraints, workers);
+}
+
 AnalysedMesh::AnalysedMesh(std::int32_t vertex_count, std::span<const MixedElement> elements,
                            const Constraints& constraints, Workers& workers) {
   connect(vertex_count, elements, constraints, workers);
-  if (constraints.slide.along != Slide::off) {
-    throw std::invalid_argument(
-        "vertices slide along the lines of triangles, and there are quadrilaterals: leave sliding off");
-  }
 }
 
 template <class Corners>
@@ -46,11 +40,9 @@ bool AnalysedMesh::look(std::span<const Point2<double>> local, std::span<const C
     mesh_.layers = hold_layers(local, elements, orientation.reversed, layers, slide_.has_value(), mesh_.fixed, workers);
     has_found_layers_ = true;
   }
-  if constexpr (std::same_as<Corners, Triangle>) {
-    if (slide_) {
-      mesh_.slidable = find_slidable(elements, mesh_.fixed, slide_->view(), workers);
-      slide_.reset();
-    }
+  if (slide_) {
+    mesh_.slidable = find_slidable(elements, mesh_.fixed, slide_->view(), workers);
+    slide_.reset();
   }
   mesh_.reoriented_triangles = orientation.reoriented_triangles;
   if (!is_first && orientation.reversed == mesh_.reversed) {

@@ -26,7 +26,7 @@ class AnalysedMesh {
   /// Throws as connect_triangles() and fixed_vertices() do. Complexity: linear.
   AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles, const Constraints& constraints,
                Workers& workers);
-  /// With quadrilaterals, where no vertices slide: throws std::invalid_argument where the constraints have any do so.
+  /// With quadrilaterals.
   AnalysedMesh(std::int32_t vertex_count, std::span<const MixedElement> elements, const Constraints& constraints,
                Workers& workers);
 

@@ -77,7 +77,7 @@ class FixedElements {
       visit(shape_quotient(points_of(corners, position)));
     }
     for (const MixedElement& element : mixed_) {
-      with_kind(element, [&](const auto& corners) { visit(shape_quotient(points_of(corners, position))); });
+      visit(quotient_at(element, position));
     }
   }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <compare>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "trismooth/base/machine/bulk_memory.h"
@@ -11,6 +12,7 @@
 #include "trismooth/base/number_lists.h"
 #include "trismooth/base/number_places.h"
 #include "trismooth/base/prefix_sums.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -27,7 +29,7 @@ struct ChainKind {
   bool operator==(const ChainKind&) const = default;
 };
 
-/// A side of a triangle between two vertices that are held. Vertices are numbered from 0 as NumberPlaces says.
+/// A side of an element between two vertices that are held. Vertices are numbered from 0 as NumberPlaces says.
 struct EdgeSide {
   std::int32_t low, high, region;
   auto operator<=>(const EdgeSide&) const = default;
@@ -38,49 +40,51 @@ struct Line {
   auto operator<=>(const Line&) const = default;
 };
 
-/// Triangles at lines, their vertices numbered from 0 in their order.
+/// Elements at lines, their vertices numbered from 0 in their order.
 class NearMesh {
  public:
   /// `others`: vertices that no line is at.
-  NearMesh(std::span<const NearTriangle> near, std::span<const std::int32_t> others)
+  NearMesh(std::span<const NearElement> near, std::span<const std::int32_t> others)
       : near_(near), places_(vertices_of(near, others)) {
     // (What holds the others is nothing that lines ask for.)
     reasons_.assign(places_.sorted().size(), hold::named);
-    for (const NearTriangle& triangle : near) {
-      Triangle corners{};
-      for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] = places_.of(triangle.corners[i]);
-        reasons_[corners[i]] = triangle.reasons[i];
+    elements_.reserve(near.size());
+    for (const NearElement& element : near) {
+      MixedElement corners = element.corners;
+      for (std::size_t i = 0; i < corners_of(element.corners).size(); ++i) {
+        corners[i] = places_.of(element.corners[i]);
+        reasons_[corners[i]] = element.reasons[i];
       }
-      triangles_.push_back(corners);
+      elements_.push_back(corners);
     }
   }
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(reasons_.size()); }
-  std::size_t size() const { return triangles_.size(); }
-  const Triangle& corners(std::size_t t) const { return triangles_[t]; }
-  std::int32_t region(std::size_t t) const { return near_[t].region; }
-  std::int32_t number(std::size_t t) const { return near_[t].number; }
+  std::size_t size() const { return elements_.size(); }
+  const MixedElement& element(std::size_t e) const { return elements_[e]; }
+  std::span<const std::int32_t> corners(std::size_t e) const { return corners_of(elements_[e]); }
+  std::int32_t region(std::size_t e) const { return near_[e].region; }
+  std::int32_t number(std::size_t e) const { return near_[e].number; }
   bool is_free(std::int32_t v) const { return reasons_[v] == 0; }
   bool is_candidate(std::int32_t v) const { return is_held_by_lines(reasons_[v]); }
-  /// The number here of a vertex of the mesh; NumberPlaces::none where it is at none of these triangles.
+  /// The number here of a vertex of the mesh; NumberPlaces::none where it is at none of these elements.
   std::int32_t vertex(std::int32_t number_in_mesh) const { return places_.of(number_in_mesh); }
   std::int32_t number_in_mesh(std::int32_t v) const { return places_.sorted()[v]; }
 
  private:
-  static std::vector<std::int32_t> vertices_of(std::span<const NearTriangle> near,
+  static std::vector<std::int32_t> vertices_of(std::span<const NearElement> near,
                                                std::span<const std::int32_t> others) {
-    std::vector<std::int32_t> corners(others.begin(), others.end());
-    corners.reserve(others.size() + 3 * near.size());
-    for (const NearTriangle& triangle : near) {
-      corners.insert(corners.end(), triangle.corners.begin(), triangle.corners.end());
+    std::vector<std::int32_t> vertices(others.begin(), others.end());
+    vertices.reserve(others.size() + 4 * near.size());
+    for (const NearElement& element : near) {
+      std::ranges::copy(corners_of(element.corners), std::back_inserter(vertices));
     }
-    return corners;
+    return vertices;
   }
 
-  std::span<const NearTriangle> near_;
+  std::span<const NearElement> near_;
   NumberPlaces places_;
-  std::vector<Triangle> triangles_;
+  std::vector<MixedElement> elements_;
   std::vector<std::uint8_t> reasons_;
 };
 
@@ -126,7 +130,7 @@ class ChainSearch {
 
   std::size_t vertices() const { return static_cast<std::size_t>(mesh_.vertex_count()); }
 
-  /// Lines with a vertex here; one that has no other here is no edge of these triangles.
+  /// Lines with a vertex here; one that has no other here is no edge of these elements.
   void list_lines(const Sliding& slide) {
     for (std::size_t i = 0; i < slide.lines.size() / 2; ++i) {
       const std::int32_t a = mesh_.vertex(slide.lines[2 * i]);
@@ -154,11 +158,13 @@ class ChainSearch {
 
   void find_edges() {
     std::vector<EdgeSide> sides;
-    for (std::size_t t = 0; t < mesh_.size(); ++t) {
-      const auto& [a, b, c] = mesh_.corners(t);
-      for (const auto& [from, to] : {std::pair{a, b}, {b, c}, {c, a}}) {
+    for (std::size_t e = 0; e < mesh_.size(); ++e) {
+      const std::span<const std::int32_t> corners = mesh_.corners(e);
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::int32_t from = corners[i];
+        const std::int32_t to = next_corner(corners, i);
         if (!mesh_.is_free(from) && !mesh_.is_free(to) && (mesh_.is_candidate(from) || mesh_.is_candidate(to))) {
-          sides.push_back({std::min(from, to), std::max(from, to), mesh_.region(t)});
+          sides.push_back({std::min(from, to), std::max(from, to), mesh_.region(e)});
         }
       }
     }
@@ -170,7 +176,7 @@ class ChainSearch {
         ++end;
       }
       const auto edge = std::pair(first.low, first.high);
-      // Lines beside the edges: what they are on is no edge of these triangles.
+      // Lines beside the edges: what they are on is no edge of these elements.
       for (; line != lines_.end() && std::pair(line->low, line->high) < edge; ++line) {
         block(*line);
       }
@@ -216,39 +222,40 @@ std::vector<std::uint8_t> Slidable::truly_fixed(std::span<const std::uint8_t> fi
   return others;
 }
 
-std::vector<std::uint8_t> Slidable::flags_of_triangles(std::span<const std::uint8_t> flags) const {
+std::vector<std::uint8_t> Slidable::flags_of_elements(std::span<const std::uint8_t> flags) const {
   std::vector<std::uint8_t> found;
-  for (const std::int32_t t : triangle_numbers) {
-    found.push_back(flags[t]);
+  for (const std::int32_t e : element_numbers) {
+    found.push_back(flags[e]);
   }
   return found;
 }
 
-Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std::uint8_t> fixed,
-                       const Constraints& constraints, Workers& workers) {
+Slidable find_slidable(const ElementList& elements, std::span<const std::uint8_t> fixed, const Constraints& constraints,
+                       Workers& workers) {
   if (constraints.slide.along == Slide::off) {
     return {};
   }
   const auto reasons = [&](std::int32_t v) { return fixed[v]; };
-  const BulkVector<std::int32_t> numbers = numbers_of(
-      std::ssize(triangles),
-      [&](std::int64_t t) {
-        const auto& [a, b, c] = triangles[t];
-        return is_held_by_lines(reasons(a)) || is_held_by_lines(reasons(b)) || is_held_by_lines(reasons(c));
-      },
-      workers);
+  const auto is_near = [&](std::int32_t v) { return is_held_by_lines(reasons(v)); };
+  const BulkVector<std::int32_t> numbers = elements.visit([&](const auto& listed) {
+    return numbers_of(
+        std::ssize(listed), [&](std::int64_t e) { return std::ranges::any_of(corners_of(listed[e]), is_near); },
+        workers);
+  });
   const BulkVector<std::int32_t> others = numbers_of(
       std::ssize(fixed), [&](std::int64_t v) { return is_held_otherwise(reasons(static_cast<std::int32_t>(v))); },
       workers);
   NearLines near{{}, {others.begin(), others.end()}};
-  near.triangles.reserve(numbers.size());
-  for (const std::int32_t t : numbers) {
-    const auto i = static_cast<std::size_t>(t);
-    const auto& [a, b, c] = triangles[i];
-    near.triangles.push_back({t,
-                              triangles[i],
-                              {reasons(a), reasons(b), reasons(c)},
-                              constraints.regions.empty() ? 0 : constraints.regions[i]});
+  near.elements.reserve(numbers.size());
+  for (const std::int32_t number : numbers) {
+    const auto e = static_cast<std::size_t>(number);
+    NearElement element{number,
+                        {no_corner, no_corner, no_corner, no_corner},
+                        {},
+                        constraints.regions.empty() ? 0 : constraints.regions[e]};
+    std::ranges::copy(elements[e], element.corners.begin());
+    std::ranges::transform(elements[e], element.reasons.begin(), reasons);
+    near.elements.push_back(element);
   }
   return find_slidable(std::move(near), constraints.slide);
 }
@@ -256,10 +263,10 @@ Slidable find_slidable(std::span<const Triangle> triangles, std::span<const std:
 void hold_otherwise(NearLines& near, std::span<const std::int32_t> vertices) {
   std::vector<std::int32_t> sorted(vertices.begin(), vertices.end());
   std::ranges::sort(sorted);
-  for (NearTriangle& triangle : near.triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (std::ranges::binary_search(sorted, triangle.corners[i])) {
-        triangle.reasons[i] |= hold::named;
+  for (NearElement& element : near.elements) {
+    for (std::size_t i = 0; i < element.corners.size(); ++i) {
+      if (std::ranges::binary_search(sorted, element.corners[i])) {
+        element.reasons[i] |= hold::named;
       }
     }
   }
@@ -267,8 +274,8 @@ void hold_otherwise(NearLines& near, std::span<const std::int32_t> vertices) {
 }
 
 Slidable find_slidable(NearLines near, const Sliding& slide) {
-  if (!std::ranges::is_sorted(near.triangles, {}, &NearTriangle::number)) {
-    std::ranges::sort(near.triangles, {}, &NearTriangle::number);
+  if (!std::ranges::is_sorted(near.elements, {}, &NearElement::number)) {
+    std::ranges::sort(near.elements, {}, &NearElement::number);
   }
   Slidable slidable;
   slidable.along = slide.deviation == 0 ? Slide::straight : slide.along;
@@ -276,21 +283,21 @@ Slidable find_slidable(NearLines near, const Sliding& slide) {
   slidable.deviation = slide.deviation;
   slidable.curve = slidable.along == Slide::curves ? slide.curve : SlideCurve::polyline;
   slidable.coincident = slide.coincident;
-  const NearMesh mesh(near.triangles, near.others);
+  const NearMesh mesh(near.elements, near.others);
   const std::vector<std::array<std::int32_t, 2>> neighbours = ChainSearch(mesh, slide).neighbours();
   const auto slides = [&](std::int32_t v) { return neighbours[v][0] != Slidable::none; };
-  // The triangles around those that slide, and their vertices.
+  // The elements around those that slide, and their vertices.
   std::vector<std::uint8_t> is_involved(neighbours.size(), 0);
-  for (std::size_t t = 0; t < mesh.size(); ++t) {
-    if (std::ranges::any_of(mesh.corners(t), slides)) {
-      slidable.triangle_numbers.push_back(mesh.number(t));
-      slidable.triangles.push_back(mesh.corners(t));
-      for (const std::int32_t v : mesh.corners(t)) {
+  for (std::size_t e = 0; e < mesh.size(); ++e) {
+    if (std::ranges::any_of(mesh.corners(e), slides)) {
+      slidable.element_numbers.push_back(mesh.number(e));
+      slidable.elements.push_back(mesh.element(e));
+      for (const std::int32_t v : mesh.corners(e)) {
         is_involved[v] = 1;
       }
     }
   }
-  if (slidable.triangles.empty()) {
+  if (slidable.elements.empty()) {
     return slidable;
   }
   for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -306,17 +313,18 @@ Slidable find_slidable(NearLines near, const Sliding& slide) {
       slidable.is_free.push_back(mesh.is_free(v) ? 1 : 0);
     }
   }
+  // (No corner is none, too.)
   const auto place_of = [&](std::int32_t v) { return v < 0 ? Slidable::none : places[v]; };
   for (std::size_t v = 0; v < neighbours.size(); ++v) {
     if (is_involved[v] != 0) {
       slidable.neighbours.push_back({place_of(neighbours[v][0]), place_of(neighbours[v][1])});
     }
   }
-  for (Triangle& triangle : slidable.triangles) {
-    std::ranges::transform(triangle, triangle.begin(), place_of);
+  for (MixedElement& element : slidable.elements) {
+    std::ranges::transform(element, element.begin(), place_of);
   }
   for (std::size_t i = 0; i < slide.links.size() / 2; ++i) {
-    // (One that is at none of these triangles is no vertex that may slide: its partner then is not either.)
+    // (One that is at none of these elements is no vertex that may slide: its partner then is not either.)
     const std::int32_t first = place_of(mesh.vertex(slide.links[2 * i]));
     const std::int32_t second = place_of(mesh.vertex(slide.links[2 * i + 1]));
     if (first != second) {
@@ -327,7 +335,7 @@ Slidable find_slidable(NearLines near, const Sliding& slide) {
   for (std::int32_t v = 0; v < slidable.vertex_count(); ++v) {
     may_slide.push_back(slidable.may_slide(v) ? 1 : 0);
   }
-  slidable.fans = SlidableFans(slidable.triangles, may_slide, slidable.is_free, slidable.vertices);
+  slidable.fans = SlidableFans(slidable.elements, may_slide, slidable.is_free, slidable.vertices);
   return slidable;
 }
 

@@ -11,9 +11,9 @@ namespace trismooth {
 PackedSlidable::PackedSlidable(Slidable slidable, std::span<const std::uint8_t> reversed,
                                std::vector<std::int32_t> numbers)
     : slidable_(std::move(slidable)),
-      triangles_(slidable_, reversed),
+      elements_(slidable_, reversed),
       numbers_(std::move(numbers)),
-      packed_triangles_(triangles_.renumbered(numbers_)) {}
+      packed_elements_(elements_.renumbered(numbers_)) {}
 
 SlideChains PackedSlidable::chains(std::span<const Point2<double>> stored, Storage storage,
                                    const LocalFrame& frame) const {
@@ -28,7 +28,7 @@ SlideChains PackedSlidable::chains(std::span<const Point2<double>> stored, Stora
     // Of both axes, and of three vertices:
     roundings[i] = 4 * local_frame_details::scaled(half_unit, -frame.exponent);
   }
-  return find_slide_chains(slidable_, triangles_, {points, roundings});
+  return find_slide_chains(slidable_, elements_, {points, roundings});
 }
 
 std::vector<std::int32_t> packed_numbers(const Slidable& slidable, std::span<const std::int32_t> input_index) {

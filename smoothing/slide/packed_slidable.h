@@ -19,14 +19,14 @@ class PackedSlidable {
   /// Nothing.
   PackedSlidable() = default;
 
-  /// `reversed`: as MeshRings::reversed, of the Slidable's triangles; `numbers`: packed, of its vertices.
+  /// `reversed`: as MeshRings::reversed, of the Slidable's elements; `numbers`: packed, of its vertices.
   PackedSlidable(Slidable slidable, std::span<const std::uint8_t> reversed, std::vector<std::int32_t> numbers);
 
   bool any() const { return slidable_.any(); }
   const Slidable& slidable() const { return slidable_; }
   std::span<const std::int32_t> numbers() const { return numbers_; }
   /// Around those that may slide, corners in packed numbers.
-  const SlideTriangles& packed_triangles() const { return packed_triangles_; }
+  const SlideElements& packed_elements() const { return packed_elements_; }
 
   /// The chains, with the vertices' numbers in the Slidable: see find_slide_chains(). They view what this owns.
   /// `stored`: these vertices, in the caller's coordinates.
@@ -34,9 +34,9 @@ class PackedSlidable {
 
  private:
   Slidable slidable_;
-  SlideTriangles triangles_;
+  SlideElements elements_;
   std::vector<std::int32_t> numbers_;
-  SlideTriangles packed_triangles_;
+  SlideElements packed_elements_;
 };
 
 /// The packed numbers of a Slidable's vertices. `input_index`: the number in the mesh of each packed vertex.

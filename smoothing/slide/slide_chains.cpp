@@ -18,12 +18,12 @@ namespace {
 /// Writes runs down as chains.
 class ChainWriter {
  public:
-  ChainWriter(const Slidable& slidable, const SlideTriangles& triangles, const SlideMesh& mesh, const ChainRuns& runs)
-      : slidable_(slidable), triangles_(triangles), mesh_(mesh), runs_(runs) {}
+  ChainWriter(const Slidable& slidable, const SlideElements& elements, const SlideMesh& mesh, const ChainRuns& runs)
+      : slidable_(slidable), elements_(elements), mesh_(mesh), runs_(runs) {}
 
   SlideChains run() {
     chains_.curve = slidable_.curve;
-    chains_.triangles = &triangles_;
+    chains_.elements = &elements_;
     chains_.held = runs_.held;
     make_room();
     for (const LinkedRuns& linked : runs_.runs) {
@@ -148,7 +148,7 @@ class ChainWriter {
     }
   }
 
-  /// Colours sliders that share an edge, through any of their copies, differently: greedily, in the order of
+  /// Colours sliders that share an element, through any of their copies, differently: greedily, in the order of
   /// splitmix64(number in the mesh) of the first copy.
   void order_by_colour() {
     const auto slider_count = static_cast<std::int32_t>(chains_.sliders.size());
@@ -173,10 +173,7 @@ class ChainWriter {
           taken[static_cast<std::size_t>(colours[other])] = s;
         }
       };
-      chains_.for_sides(slider, [&](std::int32_t /*vertex*/, const FanSide& side) {
-        take_colour_of(side.from);
-        take_colour_of(side.to);
-      });
+      chains_.for_sides(slider, [&](std::int32_t /*vertex*/, const FanSide& side) { side.for_each(take_colour_of); });
       const auto colour = static_cast<std::size_t>(
           std::ranges::find_if(taken, [s](std::int32_t by) { return by != s; }) - taken.begin());
       colours[s] = static_cast<std::int32_t>(colour);
@@ -198,7 +195,7 @@ class ChainWriter {
   }
 
   const Slidable& slidable_;
-  const SlideTriangles& triangles_;
+  const SlideElements& elements_;
   const SlideMesh& mesh_;
   const ChainRuns& runs_;
   SlideChains chains_;
@@ -221,26 +218,25 @@ SlidingResult SlideChains::result() const {
           .at_edges = held.at_edges};
 }
 
-void SlideChains::renumber(std::span<const std::int32_t> numbers, const SlideTriangles& renumbered) {
+void SlideChains::renumber(std::span<const std::int32_t> numbers, const SlideElements& renumbered) {
   for (std::int32_t& v : vertices) {
     v = numbers[v];
   }
-  triangles = &renumbered;
+  elements = &renumbered;
 }
 
 NumberLists SlideChains::neighbours(std::int32_t first, std::int32_t end) const {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   for (const Slider& slider : sliders) {
     for_sides(slider, [&](std::int32_t v, const FanSide& side) {
-      pairs.emplace_back(v, side.from);
-      pairs.emplace_back(v, side.to);
+      side.for_each([&](std::int32_t other) { pairs.emplace_back(v, other); });
     });
   }
   return {first, end, pairs};
 }
 
-SlideChains find_slide_chains(const Slidable& slidable, const SlideTriangles& triangles, const SlideMesh& mesh) {
-  return ChainWriter(slidable, triangles, mesh, find_chain_runs(slidable, mesh)).run();
+SlideChains find_slide_chains(const Slidable& slidable, const SlideElements& elements, const SlideMesh& mesh) {
+  return ChainWriter(slidable, elements, mesh, find_chain_runs(slidable, mesh)).run();
 }
 
 }  // namespace trismooth

@@ -10,17 +10,18 @@
 #include "trismooth/base/number_lists.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/triangle_view.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/result.h"
 #include "trismooth/smoothing/rings/slidable.h"
 #include "trismooth/smoothing/slide/chain_runs.h"
-#include "trismooth/smoothing/slide/slide_triangles.h"
+#include "trismooth/smoothing/slide/slide_elements.h"
 #include "trismooth/smoothing/slide/slide_update.h"
 #include "trismooth/smoothing/slide/slide_view.h"
 
 namespace trismooth {
 
 /// The chains of a mesh with its vertices where they are in the input. Owns what SlideView views, but for the
-/// triangles. Vertices have the numbers of the Slidable, or after renumber() others.
+/// elements. Vertices have the numbers of the Slidable, or after renumber() others.
 struct SlideChains {
   std::vector<SlideChain> chains;
   std::vector<Point2<double>> knots;
@@ -32,9 +33,9 @@ struct SlideChains {
   std::vector<double> limits;        ///< one a knot: how far the new line may be from the knot before it is stored...
   std::vector<double> allowed;       ///< ...and how far it may be then: rounding, of what is stored, is between
   std::vector<Slider> sliders;       ///< by colour: those of one may be updated at the same time
-  std::vector<std::int32_t> batches{0};       ///< colour c has sliders batches[c] .. batches[c + 1]
-  std::vector<SlidePlace> places;             ///< of the knots themselves
-  const SlideTriangles* triangles = nullptr;  ///< of others; corners have the numbers that vertices have here
+  std::vector<std::int32_t> batches{0};     ///< colour c has sliders batches[c] .. batches[c + 1]
+  std::vector<SlidePlace> places;           ///< of the knots themselves
+  const SlideElements* elements = nullptr;  ///< of others; corners have the numbers that vertices have here
   SlideCurve curve = SlideCurve::polyline;
   HeldTouching held;  ///< on none of the chains
 
@@ -47,12 +48,12 @@ struct SlideChains {
       visit(copy, vertices[slider.knot + copy * chain.count]);
     }
   }
-  /// Calls visit(vertex, side) for the triangles of the vertices that slide with a slider.
+  /// Calls visit(vertex, side) for the elements of the vertices that slide with a slider.
   template <class Visit>
   void for_sides(const Slider& slider, const Visit& visit) const {
     const std::int32_t count = chains[slider.chain].count;
     for_copies(slider, [&](std::int32_t copy, std::int32_t v) {
-      for (const FanSide& side : triangles->around(fan_at[slider.knot + copy * count])) {
+      for (const FanSide& side : elements->around(fan_at[slider.knot + copy * count])) {
         visit(v, side);
       }
     });
@@ -61,27 +62,26 @@ struct SlideChains {
   std::int64_t vertex_count() const;
   /// What is to be said of the chains before anybody has slid.
   SlidingResult result() const;
-  /// The triangles that no one-ring has.
-  std::span<const Triangle> held_triangles() const {
-    return triangles == nullptr ? std::span<const Triangle>() : triangles->held;
+  /// The elements that no one-ring has.
+  std::span<const MixedElement> held_elements() const {
+    return elements == nullptr ? std::span<const MixedElement>() : elements->held;
   }
   /// The smallest shape quotient of these, and how many of them are inverted or degenerate. `points`: of all vertices
   /// by the numbers that they have here.
   template <class T>
   T smallest_quotient(std::span<const Point2<T>> points) const {
     T smallest = std::numeric_limits<T>::infinity();
-    for (const auto& [a, b, c] : held_triangles()) {
-      smallest = std::min(smallest, shape_quotient(points[a], points[b], points[c]));
+    for (const MixedElement& element : held_elements()) {
+      smallest = std::min(smallest, quotient_at(element, points));
     }
     return smallest;
   }
   std::int64_t inverted(std::span<const Point2<double>> points) const {
-    return std::ranges::count_if(held_triangles(), [&](const Triangle& corners) {
-      return !(shape_quotient(points[corners[0]], points[corners[1]], points[corners[2]]) > 0);
-    });
+    return std::ranges::count_if(held_elements(),
+                                 [&](const MixedElement& element) { return !(quotient_at(element, points) > 0); });
   }
-  /// Gives vertex v the number numbers[v]. `renumbered`: the triangles, with the same numbers; they outlive the chains.
-  void renumber(std::span<const std::int32_t> numbers, const SlideTriangles& renumbered);
+  /// Gives vertex v the number numbers[v]. `renumbered`: the elements, with the same numbers; they outlive the chains.
+  void renumber(std::span<const std::int32_t> numbers, const SlideElements& renumbered);
   /// The neighbours of those that slide, by the numbers that vertices have here: these are from `first` to below `end`.
   NumberLists neighbours(std::int32_t first, std::int32_t end) const;
   SlideView view() const {
@@ -95,15 +95,15 @@ struct SlideChains {
             allowed.data(),
             lengths.data(),
             sliders.data(),
-            triangles == nullptr ? nullptr : triangles->begins.data(),
-            triangles == nullptr ? nullptr : triangles->sides.data(),
+            elements == nullptr ? nullptr : elements->begins.data(),
+            elements == nullptr ? nullptr : elements->sides.data(),
             curve};
   }
 };
 
 /// Finds the chains: which vertices turn too much to slide on them, where they touch, which are linked; in what order
 /// they are visited (greedy colouring, as colour_free_vertices() does it). Vertices have the numbers of `slidable`; so
-/// have the corners of `triangles`, which outlive the chains. Complexity: n log n in the vertices that may slide.
-SlideChains find_slide_chains(const Slidable& slidable, const SlideTriangles& triangles, const SlideMesh& mesh);
+/// have the corners of `elements`, which outlive the chains. Complexity: n log n in the vertices that may slide.
+SlideChains find_slide_chains(const Slidable& slidable, const SlideElements& elements, const SlideMesh& mesh);
 
 }  // namespace trismooth

@@ -99,30 +99,27 @@ bool SlideGuard::settle_lines(std::vector<std::int32_t>& reverted) {
   return found;
 }
 
-std::int64_t SlideGuard::settle_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted) {
+std::int64_t SlideGuard::settle_held_elements(double threshold_of_others, std::vector<std::int32_t>& reverted) {
   std::int64_t rounds = 0;
-  while (put_back_triangles(threshold_of_others, reverted)) {
+  while (put_back_held_elements(threshold_of_others, reverted)) {
     ++rounds;
   }
   return rounds;
 }
 
-bool SlideGuard::put_back_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted) {
-  const auto quotient = [](std::span<const Point2<double>> points, const Triangle& triangle) {
-    return shape_quotient(points_of(triangle, points));
-  };
-  const auto has_moved = [this](std::int32_t v) { return !(after_[v] == before_[v]); };
+bool SlideGuard::put_back_held_elements(double threshold_of_others, std::vector<std::int32_t>& reverted) {
+  const auto has_moved = [this](std::int32_t v) { return v != no_corner && !(after_[v] == before_[v]); };
   double threshold = threshold_of_others;
-  for (const Triangle& triangle : chains_.held_triangles()) {
-    if (std::ranges::any_of(triangle, has_moved)) {
-      threshold = std::min(threshold, quotient(before_, triangle));
+  for (const MixedElement& element : chains_.held_elements()) {
+    if (std::ranges::any_of(element, has_moved)) {
+      threshold = std::min(threshold, quotient_at(element, before_));
     }
   }
   std::vector<std::int32_t> offending;
-  for (const Triangle& triangle : chains_.held_triangles()) {
-    if (std::ranges::any_of(triangle, has_moved) &&
-        offends(quotient(before_, triangle), quotient(after_, triangle), threshold)) {
-      std::ranges::copy_if(triangle, std::back_inserter(offending), has_moved);
+  for (const MixedElement& element : chains_.held_elements()) {
+    if (std::ranges::any_of(element, has_moved) &&
+        offends(quotient_at(element, before_), quotient_at(element, after_), threshold)) {
+      std::ranges::copy_if(element, std::back_inserter(offending), has_moved);
     }
   }
   if (offending.empty()) {

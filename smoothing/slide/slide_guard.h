@@ -27,19 +27,20 @@ struct ElementRounds {
 };
 
 /// Lines and elements have their say in turn, until nobody has anything to say: who goes back for one may spoil the
-/// other. `lines()` and `triangles(threshold)`: the rounds of SlideGuard::settle() and settle_triangles();
+/// other. `lines()` and `held_elements(threshold)`: the rounds of SlideGuard::settle() and settle_held_elements();
 /// `elements()`: ElementRounds. Unless `guards`, lines alone are asked. Returns all rounds.
-template <class Lines, class Elements, class Triangles>
-std::int64_t settle_in_turn(bool guards, const Lines& lines, const Elements& elements, const Triangles& triangles) {
+template <class Lines, class Elements, class HeldElements>
+std::int64_t settle_in_turn(bool guards, const Lines& lines, const Elements& elements,
+                            const HeldElements& held_elements) {
   std::int64_t rounds = 0;
   for (bool again = true; again;) {
     rounds += lines();
     again = false;
     if (guards) {
       const ElementRounds done = elements();
-      const std::int64_t of_triangles = triangles(done.threshold);
-      rounds += done.rounds + of_triangles;
-      again = done.took_held || of_triangles > 0;
+      const std::int64_t of_held = held_elements(done.threshold);
+      rounds += done.rounds + of_held;
+      again = done.took_held || of_held > 0;
     }
   }
   return rounds;
@@ -59,7 +60,7 @@ SmoothingResult with_sliding_unless_given_up(const Smoothed& smoothed) {
 }
 
 /// Judges vertices that have slid, in the coordinates as they are stored: what the never-worse guard is for elements of
-/// one-rings, this is for lines, and for the triangles that no one-ring has. Whoever is linked goes back together.
+/// one-rings, this is for lines, and for the elements that no one-ring has. Whoever is linked goes back together.
 class SlideGuard {
  public:
   /// `places`: where the vertices are on their chains, by knot. `before` and `after` are all packed vertices as they
@@ -72,11 +73,11 @@ class SlideGuard {
   /// `reverted`. Returns the rounds. Complexity of a round: linear in the knots.
   std::int64_t settle(std::vector<std::int32_t>& reverted);
 
-  /// Puts back in rounds what makes triangles offend (see offends()), of which T is the smaller one of that of the
+  /// Puts back in rounds what makes elements offend (see offends()), of which T is the smaller one of that of the
   /// others, GuardOutcome::threshold, and the smallest quotient before of those with a vertex that is elsewhere. Adds
   /// the vertices that went back to `reverted`. Returns the rounds. Where this takes rounds, lines and other elements
-  /// are to be judged again. Complexity of a round: linear in the triangles.
-  std::int64_t settle_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted);
+  /// are to be judged again. Complexity of a round: linear in the elements.
+  std::int64_t settle_held_elements(double threshold_of_others, std::vector<std::int32_t>& reverted);
 
   /// What settle() found at last.
   const LineDeviation& deviation() const { return deviation_; }
@@ -88,7 +89,7 @@ class SlideGuard {
   bool put_back(std::int32_t slider, std::vector<std::int32_t>& reverted);
   bool settle_links(std::vector<std::int32_t>& reverted);
   bool settle_lines(std::vector<std::int32_t>& reverted);
-  bool put_back_triangles(double threshold_of_others, std::vector<std::int32_t>& reverted);
+  bool put_back_held_elements(double threshold_of_others, std::vector<std::int32_t>& reverted);
 
   const SlideChains& chains_;
   SlideView view_;

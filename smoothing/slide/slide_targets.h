@@ -8,6 +8,15 @@
 
 namespace trismooth {
 
+/// How large an element of a fan is: see size_of(). Of a triangle with the third side as the difference of both others.
+TRISMOOTH_HOST_DEVICE inline ElementSize<double> size_in_fan(const TriangleCorner<RingSpoke<double>>& corner) {
+  const auto& [a, b] = corner;
+  return {cross(a.edge, b.edge), a.squared + b.squared + squared_length(b.edge - a.edge)};
+}
+TRISMOOTH_HOST_DEVICE inline ElementSize<double> size_in_fan(const QuadrilateralCorner<RingSpoke<double>>& corner) {
+  return size_of(corner);
+}
+
 /// What the mean-ratio method aims at around a slider, from the mesh as it is before the first sweep. `points(v)`: the
 /// position of a packed vertex; `mesh`: what its free vertices have in common; `asked`: MeanRatioTargets::inverse_areas
 /// of the vertex, where sizes are asked for, else 0.
@@ -24,10 +33,8 @@ TRISMOOTH_HOST_DEVICE FanTarget fan_target(const SlidingVertex<Points>& vertex, 
   vertex.for_sides(
       vertex.own(),
       [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-        const Point2<double> a = vertex.point(side.from) - position;
-        const Point2<double> b = vertex.point(side.to) - position;
-        const double area = cross(a, b);
-        const double squares = squared_length(a) + squared_length(b) + squared_length(b - a);
+        const auto [area, squares] =
+            vertex.with_spokes(position, side, [](const auto& spokes) { return size_in_fan(spokes); });
         return Element{area, area > 0 ? share_of_error(area, squares) : 0};
       },
       [&](const Element& element) {

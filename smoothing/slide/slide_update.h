@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "trismooth/base/point2.h"
-#include "trismooth/quality/triangle_quality.h"
 #include "trismooth/smoothing/methods/mean_ratio.h"
 #include "trismooth/smoothing/methods/smart_laplacian.h"
 #include "trismooth/smoothing/slide/slide_curve.h"
@@ -28,8 +27,8 @@ struct FanTarget {
   double largest_share;
 };
 
-/// Who looks at the triangles of a slider: one thread, at one after the other. Others may be several threads that do
-/// the same with the same arguments and share this out; take() is called in the order of the triangles in any case.
+/// Who looks at the elements of a slider: one thread, at one after the other. Others may be several threads that do
+/// the same with the same arguments and share this out; take() is called in the order of the elements in any case.
 struct SlideAlone {
   /// Calls take(find(i)) for `begin` <= i < `end`.
   template <class Find, class Take>
@@ -125,7 +124,7 @@ class SlidingVertex {
     return own_;
   }
 
-  /// Calls take(find(copy, position, side)) for all triangles of all copies where it is at `place`.
+  /// Calls take(find(copy, position, side)) for all elements of all copies where it is at `place`.
   template <class Find, class Take>
   TRISMOOTH_HOST_DEVICE void for_sides(const SlidePlace& place, const Find& find, const Take& take) const {
     for (std::int32_t copy = 0; copy < copies(); ++copy) {
@@ -137,19 +136,22 @@ class SlidingVertex {
     }
   }
 
-  /// A triangle of a fan, seen from where the vertex is.
-  TRISMOOTH_HOST_DEVICE TriangleCorner<RingSpoke<double>> spokes(Point2<double> position, const FanSide& side) const {
-    return {spoke_to(point(side.from), position), spoke_to(point(side.to), position)};
+  /// What body() returns of the spokes to the other corners of an element, seen from where the vertex is.
+  template <class Body>
+  TRISMOOTH_HOST_DEVICE auto with_spokes(Point2<double> position, const FanSide& side, const Body& body) const {
+    return side.with_corner([&](const auto& corner) {
+      return body(corner.with([&](const FanNode& node) { return spoke_to(point(node.vertex), position); }));
+    });
   }
 
-  /// The smallest shape quotient of its triangles, and how many are inverted.
+  /// The smallest shape quotient of its elements, and how many are inverted.
   TRISMOOTH_HOST_DEVICE double worst_quotient(const SlidePlace& place, int& inverted) const {
     double worst = 1;
     inverted = 0;
     for_sides(
         place,
         [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-          return shape_quotient(spokes(position, side));
+          return with_spokes(position, side, [](const auto& spokes) { return shape_quotient(spokes); });
         },
         [&](double quotient) {
           // A quotient that is no number is the worst.
@@ -169,7 +171,7 @@ class SlidingVertex {
     for_sides(
         own_,
         [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-          return squared_length(point(side.from) - position);
+          return squared_length(point(side.from.vertex) - position);
         },
         [&](double squared) {
           squares += squared;
@@ -179,7 +181,7 @@ class SlidingVertex {
     return {place, true, squared_length(way) * neighbours, squares};
   }
 
-  /// To the place if the worst of its triangles gets better there and no more are inverted.
+  /// To the place if the worst of its elements gets better there and no more are inverted.
   TRISMOOTH_HOST_DEVICE SlideMove smart_move(const SlidePlace& place) const {
     int inverted_before = 0;
     int inverted_after = 0;
@@ -201,7 +203,7 @@ class SlidingVertex {
   SlidePlace after_{};
 };
 
-/// To where the method says that a vertex of a line is to go: in any case, or if the worst of its triangles gets better
+/// To where the method says that a vertex of a line is to go: in any case, or if the worst of its elements gets better
 /// (the paper's rule, section 3.3.4).
 template <class Update, class Vertex>
 TRISMOOTH_HOST_DEVICE SlideMove slide(const Update& /*method*/, const Vertex& vertex, const FanTarget& /*target*/) {
@@ -253,7 +255,8 @@ class SlidingEnergy {
     vertex_.for_sides(
         place,
         [&](std::int32_t copy, Point2<double> position, const FanSide& side) {
-          const SideTerms<double, 7> terms = energy_.expansion(triangle(position, side));
+          const SideTerms<double, 7> terms =
+              of_element(position, side, [this](const auto& element) { return energy_.expansion(element); });
           return Expansion{terms.values[0], along(terms, curve.tangent(back, copy)),
                            along(terms, curve.tangent(place, copy)), terms.margin > 0};
         },
@@ -266,7 +269,7 @@ class SlidingEnergy {
     return found;
   }
 
-  /// Whether the energy is smaller than `value` at the place, every triangle positive and none beyond the growth bound
+  /// Whether the energy is smaller than `value` at the place, every element positive and none beyond the growth bound
   /// that was not.
   TRISMOOTH_HOST_DEVICE bool is_better_at(const SlidePlace& place, double value) const {
     double sum = 0;
@@ -275,7 +278,7 @@ class SlidingEnergy {
     vertex_.for_sides(
         place,
         [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-          return energy_.value(triangle(position, side));
+          return of_element(position, side, [this](const auto& element) { return energy_.value(element); });
         },
         [&](const SideTerms<double, 1>& terms) {
           sum += terms.values[0];
@@ -288,7 +291,7 @@ class SlidingEnergy {
   TRISMOOTH_HOST_DEVICE int power() const { return energy_.power; }
 
  private:
-  /// The derivatives of a triangle's terms in one direction.
+  /// The derivatives of an element's terms in one direction.
   static TRISMOOTH_HOST_DEVICE Slopes along(const SideTerms<double, 7>& terms, Point2<double> way) {
     return {
         way.x * terms.values[1] + way.y * terms.values[2],
@@ -300,31 +303,39 @@ class SlidingEnergy {
     vertex_.for_sides(
         vertex_.own(),
         [&](std::int32_t /*copy*/, Point2<double> position, const FanSide& side) {
-          return energy_.value(triangle(position, side)).share;
+          return of_element(position, side, [this](const auto& element) { return energy_.value(element).share; });
         },
         [&](double share) { largest = share > largest ? share : largest; });
     return largest;
   }
 
-  TRISMOOTH_HOST_DEVICE double inverse_area(std::int32_t v, bool is_unknown) const {
-    return is_unknown ? target_.inverse_area : static_cast<double>(targets_.inverse_areas[v]);
+  /// What the method knows of another corner of an element.
+  struct Neighbour {
+    Point2<double> position;
+    double inverse_area;
+  };
+
+  TRISMOOTH_HOST_DEVICE double inverse_area(const FanNode& node) const {
+    return node.is_unknown ? target_.inverse_area : static_cast<double>(targets_.inverse_areas[node.vertex]);
   }
 
-  TRISMOOTH_HOST_DEVICE auto triangle(Point2<double> position, const FanSide& side) const {
-    struct Neighbour {
-      Point2<double> position;
-      double inverse_area;
-    };
-    const auto spokes = vertex_.spokes(position, side);
-    const TriangleCorner<Neighbour> corner{{spokes.next.end, inverse_area(side.from, side.from_is_unknown)},
-                                           {spokes.previous.end, inverse_area(side.to, side.to_is_unknown)}};
-    return element_of<double>(spokes, side_of<double>(corner, target_.inverse_area, metric(side)));
+  /// What term() returns of an element, as the method sees it from where the vertex is.
+  template <class Term>
+  TRISMOOTH_HOST_DEVICE auto of_element(Point2<double> position, const FanSide& side, const Term& term) const {
+    return side.with_corner([&](const auto& corner) {
+      const auto neighbours = corner.with([&](const FanNode& node) {
+        return Neighbour{vertex_.point(node.vertex), inverse_area(node)};
+      });
+      const auto spokes = neighbours.with([&](const Neighbour& of) { return spoke_to(of.position, position); });
+      return term(element_of<double>(spokes, side_of<double>(neighbours, target_.inverse_area, metric(corner))));
+    });
   }
 
-  TRISMOOTH_HOST_DEVICE auto metric(const FanSide& side) const {
+  template <class Corner>
+  TRISMOOTH_HOST_DEVICE auto metric(const Corner& corner) const {
     if constexpr (shaped) {
-      EdgeTensor<double> edges = widened(targets_.edges[side.from]);
-      edges.add(widened(targets_.edges[side.to]));
+      EdgeTensor<double> edges;
+      corner.for_each([&](const FanNode& node) { edges.add(widened(targets_.edges[node.vertex])); });
       return metric_of(edges);
     } else {
       return EuclideanMetric<double>{};

@@ -5,6 +5,8 @@
 
 #include "trismooth/base/host_device.h"
 #include "trismooth/base/point2.h"
+#include "trismooth/base/triangle_view.h"
+#include "trismooth/smoothing/rings/ring_elements.h"
 #include "trismooth/smoothing/sliding.h"
 
 /// The chains that vertices slide on, as a device takes them: plain arrays that somebody else owns. A chain's knots are
@@ -28,13 +30,34 @@ struct Slider {
   std::int32_t knot;  ///< in the first copy
 };
 
-/// A triangle around a sliding vertex: the other two corners, counter-clockwise. Packed numbers.
+/// Another corner of an element around a sliding vertex.
+struct FanNode {
+  std::int32_t vertex;  ///< packed number
+  bool is_unknown;  ///< nothing is known of the area that is aimed at around it: it shares no element with a free one
+};
+
+/// An element around a sliding vertex: its other corners, counter-clockwise. Sides of the vertex end at the first and
+/// at the last of them.
 struct FanSide {
-  std::int32_t from;
-  std::int32_t to;
-  /// Nothing is known of the area that is aimed at around that corner, which has no free neighbour.
-  bool from_is_unknown;
-  bool to_is_unknown;
+  FanNode from;
+  FanNode opposite;  ///< no_corner in a triangle
+  FanNode to;
+
+  /// What body() returns of the corner at the vertex, of these nodes.
+  template <class Body>
+  TRISMOOTH_HOST_DEVICE auto with_corner(const Body& body) const {
+    return opposite.vertex == no_corner ? body(TriangleCorner<FanNode>{from, to})
+                                        : body(QuadrilateralCorner<FanNode>{from, opposite, to});
+  }
+  /// Calls visit(vertex) for the other corners.
+  template <class Visit>
+  TRISMOOTH_HOST_DEVICE void for_each(const Visit& visit) const {
+    visit(from.vertex);
+    if (opposite.vertex != no_corner) {
+      visit(opposite.vertex);
+    }
+    visit(to.vertex);
+  }
 };
 
 struct SlideView {

@@ -163,10 +163,18 @@ class TouchingSearch {
   double reach(std::int32_t v) const {
     const auto [a, b] = slidable_.neighbours[index(v)];
     const double on_line = std::min(squared_distance(v, a), squared_distance(v, b));
-    double height = unknown;  // in its triangles
+    double height = unknown;  // in its elements
     for (const ListedSide& side : slidable_.fans.around(v)) {
-      const double twice_area = cross(point(side.first) - point(v), point(side.second) - point(v));
-      height = std::min(height, std::abs(twice_area) / std::sqrt(squared_distance(side.first, side.second)));
+      const auto lower_to = [&](std::int32_t from, std::int32_t to) {
+        const double twice_area = cross(point(from) - point(v), point(to) - point(v));
+        height = std::min(height, std::abs(twice_area) / std::sqrt(squared_distance(from, to)));
+      };
+      if (side.opposite == no_corner) {
+        lower_to(side.first, side.second);
+      } else {
+        lower_to(side.first, side.opposite);
+        lower_to(side.opposite, side.second);
+      }
     }
     return std::min(1e-3 * std::sqrt(on_line), 0.1 * height);
   }

@@ -21,7 +21,7 @@ struct TouchingLines {
 };
 
 /// Finds them among the vertices that are held. What is nearly so counts as well: within a thousandth of the shortest
-/// edge of lines at the vertices (and at the ends of the edge), and a tenth of their height in any triangle, so that
+/// edge of lines at the vertices (and at the ends of the edge), and a tenth of their height in any element, so that
 /// two sides of a thin layer do not touch. `points`: of the vertices. Complexity: n log n in the vertices, and linear
 /// in their number times the binary orders of magnitude of the lengths of edges; an edge that is much longer than those
 /// beside it takes as long as there are vertices beside it.

@@ -94,8 +94,7 @@ void SlidePass<T>::visit(const Update& method, std::size_t s, const Working& wor
     mark(working.marked, v);
   });
   chains_.for_sides(slider, [&](std::int32_t /*v*/, const FanSide& side) {
-    mark(working.marked, side.from);
-    mark(working.marked, side.to);
+    side.for_each([&](std::int32_t other) { mark(working.marked, other); });
   });
   places_[slider.knot] = move.place;
 }

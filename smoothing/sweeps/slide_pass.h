@@ -45,7 +45,7 @@ class SlidePass {
   /// One pass.
   SweepTally<T> run(const MethodInUse<T>& in_use, const Working& working);
 
-  /// The smallest shape quotient of the triangles that no one-ring has.
+  /// The smallest shape quotient of the elements that no one-ring has.
   T smallest_quotient(std::span<const Point2<T>> points) const { return chains_.smallest_quotient(points); }
 
  private:

@@ -546,11 +546,45 @@ TEST_CASE("tangled meshes of quadrilaterals have the CPU's bits, untangled, and 
   CHECK(of_device > 30);
 }
 
+TEST_CASE("vertices of quadrilaterals slide along lines to the same bits on the device") {
+  std::int64_t slid = 0;
+  for (const MixedMesh& mesh : random_meshes(40)) {
+    Constraints constraints;
+    constraints.slide.along = mesh.elements.size() % 3 == 0 ? Slide::straight : Slide::curves;
+    constraints.slide.deviation = 0.1;
+    constraints.slide.corner_angle = 60;
+    std::vector<std::int32_t> regions;
+    for (const auto& element : mesh.elements) {
+      regions.push_back(mesh.points[static_cast<std::size_t>(element[0])][1] < 3 ? 1 : 2);
+    }
+    constraints.regions = regions;
+    for (const SmoothingOptions& options : all_ways(30)) {
+      CAPTURE(name_of(options), slid);
+      const Run expected = run(mesh, options, constraints);
+      SmoothingOptions on_device = options;
+      on_device.backend = &cuda::backend();
+      const Run found = run(mesh, on_device, constraints);
+      if (expected.result.free_vertices > 0) {
+        REQUIRE(found.result.backend == "cuda");
+      }
+      REQUIRE(found.xy == expected.xy);
+      REQUIRE(found.result.sweeps == expected.result.sweeps);
+      REQUIRE(found.result.reverted_vertices == expected.result.reverted_vertices);
+      REQUIRE(found.result.sliding->slid == expected.result.sliding->slid);
+      REQUIRE(found.result.sliding->vertices == expected.result.sliding->vertices);
+      REQUIRE(found.result.sliding->given_up == expected.result.sliding->given_up);
+      REQUIRE(found.result.sliding->largest_deviation == expected.result.sliding->largest_deviation);
+      slid += found.result.sliding->slid;
+    }
+  }
+  CHECK(slid > 1000);
+}
+
 TEST_CASE("what devices do not do with quadrilaterals is refused, and nothing moves") {
   const MixedMesh mesh(6, 6, 0.2, 1);
-  const auto refused = [&](const SmoothingOptions& options, const Constraints& constraints = {}) {
+  const auto refused = [&](const SmoothingOptions& options) {
     std::vector<double> xy = mesh.xy();
-    const std::string said = refusal([&] { smooth(xy_points(xy), mesh.elements, constraints, options); });
+    const std::string said = refusal([&] { smooth(xy_points(xy), mesh.elements, options); });
     CHECK(xy == mesh.xy());
     return said;
   };
@@ -563,10 +597,6 @@ TEST_CASE("what devices do not do with quadrilaterals is refused, and nothing mo
   CHECK(refused(options) ==
         "argument: execution 'cdp' smooths triangles alone: quadrilaterals by execution 'resident'");
   options.execution = Execution::resident;
-  Constraints sliding;
-  sliding.slide.along = Slide::straight;
-  CHECK(refused(options, sliding) ==
-        "argument: vertices slide along the lines of triangles, and there are quadrilaterals: leave sliding off");
   const std::unique_ptr<Backend> several = cuda::backend_on(std::array{0, 0});
   options.backend = several.get();
   CHECK(refused(options) == "argument: several devices smooth triangles alone: quadrilaterals on one device");

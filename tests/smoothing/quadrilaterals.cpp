@@ -498,10 +498,6 @@ TEST_CASE("what quadrilaterals cannot have is refused, and nothing moves") {
     CHECK(same_bits(xy, mesh.xy()));
     return said;
   };
-  Constraints sliding;
-  sliding.slide.along = Slide::straight;
-  CHECK(refused(with(Method::smart), sliding) ==
-        "argument: vertices slide along the lines of triangles, and there are quadrilaterals: leave sliding off");
   const std::vector<std::int32_t> regions(3);
   Constraints wrong;
   wrong.regions = regions;

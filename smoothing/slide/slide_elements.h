@@ -11,22 +11,22 @@
 
 namespace trismooth {
 
-/// The triangles that sliding vertices are corners of, wherever they are: all of this is known before anybody slides.
-struct SlideTriangles {
+/// The elements that sliding vertices are corners of, wherever they are: all of this is known before anybody slides.
+struct SlideElements {
   std::vector<std::int32_t> begins{
       0};  ///< sides[begins[v]] .. sides[begins[v + 1]] are around vertex v of the Slidable
   std::vector<FanSide> sides;
   /// Those with a vertex that may slide, as far as connectivity says it, and none that is free: no one-ring has them.
   /// Canonical corners.
-  std::vector<Triangle> held;
+  std::vector<MixedElement> held;
 
   /// None.
-  SlideTriangles() = default;
-  /// Vertices have the numbers of `slidable`. `reversed`: as MeshRings::reversed, of its triangles. Complexity: linear.
-  SlideTriangles(const Slidable& slidable, std::span<const std::uint8_t> reversed);
+  SlideElements() = default;
+  /// Vertices have the numbers of `slidable`. `reversed`: as MeshRings::reversed, of its elements. Complexity: linear.
+  SlideElements(const Slidable& slidable, std::span<const std::uint8_t> reversed);
 
-  /// These triangles, where vertex v, as a corner, has the number numbers[v].
-  SlideTriangles renumbered(std::span<const std::int32_t> numbers) const;
+  /// These elements, where vertex v, as a corner, has the number numbers[v].
+  SlideElements renumbered(std::span<const std::int32_t> numbers) const;
 
   std::span<const FanSide> around(std::int32_t v) const {
     const auto i = static_cast<std::size_t>(v);
