@@ -175,8 +175,6 @@ void settle_sliding(RunState& run) {
   }
   if (!run.mesh.quadratics.empty()) {
     run.note("the mesh has elements with nodes in the middle of their sides: no vertex slides");
-  } else if (!run.mesh.elements.are_triangles()) {
-    run.note("the mesh has quadrilaterals, with which no vertex slides; with --quads hold those of triangles do");
   } else if (!run.mesh.plane.aligned) {
     run.note("the mesh lies in a tilted plane, where rounding takes points off their lines: no vertex slides");
   } else if (run.document.most_coordinate_characters > 0) {

@@ -285,15 +285,7 @@ nb::dict flat_mesh(std::size_t vertex_count, nb::handle types, nb::handle sizes,
   }
   const MeshDocument& document = given.document();
   Workers workers(1);
-  ElementCells cells = element_cells(document, workers, slides ? Quads::hold : Quads::smooth);
-  if (cells.held_quads > 0) {
-    cells.notes.push_back(counted(cells.held_quads, "of these cells is a quadrilateral, which is",
-                                  "of these cells are quadrilaterals, which are") +
-                          " smoothed where nothing slides");
-  }
-  if (cells.elements.empty() && cells.held_quads > 0) {
-    raise_value_error("slide", "nothing slides in a mesh of quadrilaterals alone; leave it out");
-  }
+  ElementCells cells = element_cells(document, workers, Quads::smooth);
   if (cells.elements.empty()) {
     raise_value_error("points", "it has no triangles and no quadrilaterals, of corners or with middles of sides");
   }

@@ -181,17 +181,20 @@ def test_quadratic_triangles() -> None:
                 assert np.allclose(place[nodes[middle]], sum(ends) / 2, rtol=0, atol=1e-9)
 
 
-def test_quadrangles_are_smoothed_unless_nodes_slide() -> None:
+def test_quadrangles_are_smoothed_and_their_nodes_slide() -> None:
     first, second = two_squares()
     gmsh.model.mesh.setRecombine(2, second)
     gmsh.model.mesh.generate(2)
     assert 3 in gmsh.model.mesh.getElementTypes(2)
-    with pytest.warns(trismooth.MeshWarning, match="quadrilaterals, which are smoothed where nothing slides"):
-        slid = moved_by(slide="straight")
-    assert slid and not slid & nodes_of_elements(3)
     moved = moved_by(method="mean-ratio")
     assert moved & nodes_on(2, second)
     assert moved <= nodes_on(2, first) | nodes_on(2, second)
+    curves = [tag for _, tag in gmsh.model.getEntities(1)]
+    for curve in curves:
+        spread(curve)
+    slid = moved_by(method="mean-ratio", slide="straight")
+    assert slid & nodes_of_elements(3) & set().union(*(nodes_on(1, curve) for curve in curves))
+    assert not slid & nodes_on(0)
 
 
 TAGS = 1000 + 7 * np.random.default_rng(11).permutation(len(G.points))

@@ -143,7 +143,6 @@ def test_what_quadrilaterals_cannot_have_is_refused_by_name():
     points, elements = mixed_mesh()
     before = points.copy()
     refused = (
-        ({"slide": "straight"}, "^slide: vertices slide along the lines of triangles"),
         ({"regions": [1, 2]}, "^regions: "),
     )
     for options, said in refused:
@@ -184,12 +183,38 @@ def test_meshes_of_other_packages_are_smoothed_and_judged_with_their_quadrilater
     assert repr(trismooth.quality(mesh).summary) == repr(trismooth.quality(points, listed).summary)
 
 
-def test_quadrilaterals_of_other_packages_are_held_where_vertices_slide_and_a_warning_says_so():
-    points, elements = mixed_mesh()
-    with pytest.warns(trismooth.MeshWarning, match="quadrilaterals, which are smoothed where nothing slides"):
-        result = trismooth.smooth(as_meshio(points, elements), slide="straight")
-    of_quadrilaterals = np.unique(elements[elements[:, 3] >= 0])
-    np.testing.assert_array_equal(result.points[of_quadrilaterals], points[of_quadrilaterals])
+def uneven_square(seed=3):
+    """A mesh of both kinds whose sides are straight: its vertices are off their places, those of the sides along these."""
+    places, elements = mixed_mesh(jitter=0)
+    x, y = places.T
+    shift = np.random.default_rng(seed).uniform(-0.3, 0.3, places.shape)
+    shift[(x == 0) | (x == 12), 0] = 0
+    shift[(y == 0) | (y == 9), 1] = 0
+    return places, places + shift, elements
+
+
+@pytest.mark.parametrize("method", ["smart", "laplacian", "weighted", "mean-ratio"])
+def test_vertices_of_quadrilaterals_slide_along_sides(method):
+    places, points, elements = uneven_square()
+    x, y = places.T
+    result = trismooth.smooth(points, elements, slide="straight", method=method)
+    assert result.sliding.lines == 4 and result.sliding.vertices == 2 * (11 + 8) and result.sliding.slid > 0
+    assert (result.points[y == 0, 1] == 0).all() and (result.points[x == 12, 0] == 12).all()
+    corners = ((x == 0) | (x == 12)) & ((y == 0) | (y == 9))
+    np.testing.assert_array_equal(result.points[corners], points[corners])
+    assert shapes_of(result.points, elements).min() >= shapes_of(points, elements).min() - 1e-12
+    planned = trismooth.Plan(elements, len(points), slide="straight", method=method).smooth(points)
+    np.testing.assert_array_equal(planned.points, result.points)
+
+
+def test_vertices_of_quadrilaterals_of_other_packages_slide():
+    _, points, elements = uneven_square()
+    listed = np.concatenate([elements[elements[:, 3] < 0], elements[elements[:, 3] >= 0]])
+    for options in ({"slide": "straight"}, {"slide": "curves", "method": "mean-ratio", "deviation": 0.05}):
+        expected = trismooth.smooth(points, listed, **options)
+        result = trismooth.smooth(as_meshio(points, elements), **options)
+        np.testing.assert_array_equal(result.mesh.points, expected.points)
+        assert result.notes == [] and result.sliding.slid == expected.sliding.slid > 0
 
 
 def test_quadrilaterals_of_scikit_fem_are_smoothed():

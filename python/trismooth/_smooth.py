@@ -55,7 +55,7 @@ def smooth(
         mesh itself, and ``regions`` and ``fixed`` may name arrays or sets of the mesh.
     triangles : array of integers, shape (M, 3), (M, 4), (M, 6) or (M, 9)
         Vertex numbers from 0, in either direction. With four, quadrilaterals are among them: the corners in turn, the
-        last of a triangle is -1; of arrays of the host alone. Their vertices do not slide along lines. Six are a
+        last of a triangle is -1; of arrays of the host alone. Six are a
         quadratic triangle: the corners, then the middles of the sides 01, 12 and 20, which follow the ends of their
         sides. Nine are the nodes of any element of three, four, six, eight or nine, with -1 behind them: corners, middles
         of the sides, the centre, which follows the corners. One that is listed again, in whatever order, counts
@@ -74,7 +74,7 @@ def smooth(
     slide : {"off", "straight", "curves"}
         Whether vertices of boundaries and borders of regions move along them: "straight" on stretches that are straight
         to rounding, where the line stays the same set of points; "curves" on all, as far as ``deviation`` allows.
-        Triangles of six nodes do not slide, nor do quadrilaterals. See docs/sliding.md.
+        Triangles of six nodes do not slide. See docs/sliding.md.
     lines : array of integers, shape (K, 2), optional
         Edges of further lines, two vertex numbers each: their vertices are held, or slide along them. Of a mesh with
         line cells these are its lines, where vertices slide; False: it has none; an array: these in place of them.

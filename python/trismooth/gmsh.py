@@ -34,7 +34,7 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
     that are neither triangles nor quadrangles of four nodes are held, too, and nodes that are linked as periodic; a
     quadrangle that repeats a corner is a triangle. Where they have parametric coordinates on their surface, moved nodes get those of the new place.
 
-    With ``slide`` quadrangles are held, and nodes inside of curves slide along the line elements of their curve; nodes on points stay. Nodes that
+    With ``slide`` nodes inside of curves slide along the line elements of their curve; nodes on points stay. Nodes that
     are linked as periodic on two curves slide together. Moved nodes are on the edges of the mesh as it was, not on the
     curve of the geometry; ``deviation`` bounds how far they are from where these were.
 

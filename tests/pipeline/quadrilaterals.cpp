@@ -296,7 +296,6 @@ TEST_CASE("what cannot be had with quadrilaterals holds them or is refused, in a
                  "without --topology halfedge they are smoothed"));
   CHECK(any_says(notes_with([](PipelineOptions& o) { o.halfedge_stage = [](HalfedgeStage&) {}; }),
                  "the program's own stage has triangles alone"));
-  CHECK(any_says(notes_with([](PipelineOptions& o) { o.slide.along = Slide::straight; }), "with --quads hold"));
   const fakes::FakeBackend backend;
   CHECK(any_says(notes_with([&](PipelineOptions& o) { o.smoothing.backend = &backend; }), "smooths triangles alone"));
   // Asked for, they are held without more words.

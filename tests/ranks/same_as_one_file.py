@@ -111,15 +111,20 @@ class SameAsOneFile(ranks_tool.RanksTest):
         parts = pieces.cut(self.mixed_mesh(), pieces.stripes(self.mixed_mesh(), 5), 5, global_ids=False)
         pieces.write_pieces(self.path("mixed.pvtu"), parts)
         pieces.write_vtu(self.path("merged.vtu"), pieces.merged(parts))
-        whole = self.report("smooth", "merged.vtu", "smooth.vtu", "--method", "mean-ratio")
-        self.assertGreater(whole["input"]["quadrilaterals"], 10)
-        for ranks, name in ((1, "mixed.pvtu"), (2, "mixed.pvtu"), (3, "merged.vtu"), (4, "mixed.pvtu")):
-            with self.subTest(ranks=ranks, name=name):
-                report = self.report_over(ranks, "smooth", name, "out.pvtu", "--method", "mean-ratio")
-                self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
-                self.assertEqual(report["after"]["kinds"], whole["after"]["kinds"])
-                if ranks > 1:
-                    self.assertIn("quadrilaterals are smoothed by one rank alone", report["smoothing"]["backend_note"])
+        for more in ([], ["--slide", "curves", "--deviation", "0.1", "--corner-angle", "60"]):
+            options = ["--method", "mean-ratio", *more]
+            whole = self.report("smooth", "merged.vtu", "smooth.vtu", *options)
+            self.assertGreater(whole["input"]["quadrilaterals"], 10)
+            if more:
+                self.assertGreater(whole["smoothing"]["sliding"]["slid"], 0)
+            for ranks, name in ((1, "mixed.pvtu"), (2, "mixed.pvtu"), (3, "merged.vtu"), (4, "mixed.pvtu")):
+                with self.subTest(ranks=ranks, name=name, more=more):
+                    report = self.report_over(ranks, "smooth", name, "out.pvtu", *options)
+                    self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
+                    self.assertEqual(report["after"]["kinds"], whole["after"]["kinds"])
+                    if ranks > 1:
+                        self.assertIn("quadrilaterals are smoothed by one rank alone",
+                                      report["smoothing"]["backend_note"])
 
     def test_quadrilaterals_are_untangled_by_one_rank_to_the_same_bits(self):
         mesh = self.mixed_mesh()
