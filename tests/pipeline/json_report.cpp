@@ -43,6 +43,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                          "quadrilaterals",
                                          "other_cells",
                                          "quadratic_triangles",
+                                         "quadratic_quadrilaterals",
                                          "middle_nodes",
                                          "regions",
                                          "region_array",
