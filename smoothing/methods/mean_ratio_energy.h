@@ -28,8 +28,9 @@ constexpr TRISMOOTH_HOST_DEVICE V share_of_error(const ElementSize<V>& size) {
 ///
 ///     sum over the corners of q^-p / 2 + p lambda / 3 (tau + 1 / tau)
 ///
-/// `fixed_power`: p where the code is for this one alone; 0: it is what `power` says.
-template <class T, int fixed_power>
+/// `fixed_power`: p where the code is for this one alone; 0: it is what `power` says. `has_size`: with the term that
+/// keeps sizes.
+template <class T, int fixed_power, bool has_size = true>
 struct MeanRatioEnergy {
   int power;      ///< p
   T size_weight;  ///< lambda / 3
@@ -55,43 +56,46 @@ struct MeanRatioEnergy {
     const V scale = T(2 / shape_constant) * terms.inverse;
     const V ratio_x = -scale * t.pull_x - terms.ratio * area_x;
     const V ratio_y = -scale * t.pull_y - terms.ratio * area_y;
-    const V size_first = size_weight * (terms.tau - terms.inverse_tau);
-    const V size_second = T(2) * size_weight * terms.inverse_tau;
-    // Their second derivatives, and those of lambda / 3 (tau + 1 / tau). Products of x and y first: a mesh turned by a
-    // right angle has the same bits.
+    // Their second derivatives. Products of x and y first: a mesh turned by a right angle has the same bits.
     const V ratio_xx = scale * t.stiffness.xx - T(2) * (ratio_x * area_x);
     const V ratio_yy = scale * t.stiffness.yy - T(2) * (ratio_y * area_y);
     V ratio_xy = -(ratio_x * area_y + ratio_y * area_x);
     if constexpr (shaped) {
       ratio_xy += scale * t.stiffness.xy;
     }
-    const V size_xx = size_second * (area_x * area_x);
-    const V size_xy = size_second * (area_x * area_y);
-    const V size_yy = size_second * (area_y * area_y);
-    if constexpr (fixed_power == 1) {
-      return {{of(terms, power_below(terms.ratio)), ratio_x + size_first * area_x, ratio_y + size_first * area_y,
-               ratio_xx + size_xx, ratio_xy + size_xy, ratio_yy + size_yy, t.spoke},
-              t.doubled_area,
-              share_of_error(t.doubled_area, t.squares)};
-    } else {
-      const Power<V> below = power_below(terms.ratio);
+    const Power<V> below = power_below(terms.ratio);
+    SideTerms<V, 7> result{{of(terms, below), ratio_x, ratio_y, ratio_xx, ratio_xy, ratio_yy, t.spoke},
+                           t.doubled_area,
+                           share_of_error(t.doubled_area, t.squares)};
+    auto& [energy, x, y, xx, xy, yy, spoke] = result.values;
+    if constexpr (fixed_power != 1) {
       const V first = below.value;
       const V second = below.slope;
-      return {{of(terms, below), first * ratio_x + size_first * area_x, first * ratio_y + size_first * area_y,
-               first * ratio_xx + second * (ratio_x * ratio_x) + size_xx,
-               first * ratio_xy + second * (ratio_x * ratio_y) + size_xy,
-               first * ratio_yy + second * (ratio_y * ratio_y) + size_yy, t.spoke},
-              t.doubled_area,
-              share_of_error(t.doubled_area, t.squares)};
+      x = first * ratio_x;
+      y = first * ratio_y;
+      xx = first * ratio_xx + second * (ratio_x * ratio_x);
+      xy = first * ratio_xy + second * (ratio_x * ratio_y);
+      yy = first * ratio_yy + second * (ratio_y * ratio_y);
     }
+    if constexpr (has_size) {
+      // Those of lambda / 3 (tau + 1 / tau).
+      const V size_first = size_weight * (terms.tau - terms.inverse_tau);
+      const V size_second = T(2) * size_weight * terms.inverse_tau;
+      x += size_first * area_x;
+      y += size_first * area_y;
+      xx += size_second * (area_x * area_x);
+      xy += size_second * (area_x * area_y);
+      yy += size_second * (area_y * area_y);
+    }
+    return result;
   }
 
   /// The energy of a quadrilateral, but for the corner opposite.
   template <class V, bool shaped>
   constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, 1> value(const SideQuadrilateral<V, shaped>& q) const {
     const V tau = q.doubled_area * q.inverse_area;
-    return with_size(q, SideTerms<V, 1>{{static_cast<T>(power) * (size_weight * (tau + T(1) / tau))}, {}, {}},
-                     [](const MeanRatioEnergy& shapes, const auto& corner) { return shapes.value(corner); });
+    return with_size(q, SideTerms<V, 1>{{twice_power() * (size_weight * (tau + T(1) / tau))}, {}, {}},
+                     [](const Shapes& shapes, const auto& corner) { return shapes.value(corner); });
   }
 
   /// The energy and its derivatives, as those of a triangle.
@@ -101,35 +105,41 @@ struct MeanRatioEnergy {
     const V inverse_tau = T(1) / tau;
     const V x = -q.c.y * (inverse_tau * q.inverse_area);
     const V y = q.c.x * (inverse_tau * q.inverse_area);
-    const V first = size_weight * (tau - inverse_tau);
-    const V second = T(2) * size_weight * inverse_tau;
+    const V first = T(2) * size_weight * (tau - inverse_tau);
+    const V second = T(4) * size_weight * inverse_tau;
     return with_size(q,
-                     SideTerms<V, 7>{{static_cast<T>(power) * (size_weight * (tau + inverse_tau)), first * x, first * y,
+                     SideTerms<V, 7>{{twice_power() * (size_weight * (tau + inverse_tau)), first * x, first * y,
                                       second * (x * x), second * (x * y), second * (y * y), q.spoke},
                                      {},
                                      {}},
-                     [](const MeanRatioEnergy& shapes, const auto& corner) {
-                       SideTerms<V, 7> terms = shapes.expansion(corner);
-                       terms.values[6] = V{};
-                       return terms;
-                     });
+                     [](const Shapes& shapes, const auto& corner) { return shapes.expansion(corner); });
   }
 
  private:
-  /// The terms of a quadrilateral: those of its size, and those that its corners have of their shapes.
+  /// The energy of a corner of a quadrilateral, which has no size of its own.
+  using Shapes = MeanRatioEnergy<T, fixed_power, false>;
+
+  constexpr TRISMOOTH_HOST_DEVICE T twice_power() const { return static_cast<T>(2 * power); }
+
+  /// The terms of a quadrilateral, from those of its size twice and those that its corners have of their shapes: half
+  /// of all of these.
   template <class V, bool shaped, int count, class TermsOf>
   constexpr TRISMOOTH_HOST_DEVICE SideTerms<V, count> with_size(const SideQuadrilateral<V, shaped>& q,
                                                                 SideTerms<V, count> result,
                                                                 const TermsOf& terms_of) const {
-    const MeanRatioEnergy shapes{power, T(0), least_quotient};
+    constexpr int halved = count < 6 ? count : 6;  // the spoke is that of the quadrilateral
+    const Shapes shapes{power, size_weight, least_quotient};
     result.margin = V{} + std::numeric_limits<T>::max();
     result.share = share_of_error(q.doubled_area, q.squares);
     for (const SideTriangle<V, shaped>& corner : q.corners) {
       const SideTerms<V, count> terms = terms_of(shapes, corner);
-      for (int i = 0; i < count; ++i) {
-        result.values[i] += T(0.5) * terms.values[i];
+      for (int i = 0; i < halved; ++i) {
+        result.values[i] += terms.values[i];
       }
       result.margin = terms.margin < result.margin ? terms.margin : result.margin;
+    }
+    for (int i = 0; i < halved; ++i) {
+      result.values[i] = T(0.5) * result.values[i];
     }
     return result;
   }
@@ -167,12 +177,15 @@ struct MeanRatioEnergy {
 
   template <class V>
   constexpr TRISMOOTH_HOST_DEVICE V of(const Terms<V>& terms, const Power<V>& below) const {
-    const V sizes = size_weight * (terms.tau + terms.inverse_tau);
-    if constexpr (fixed_power == 1) {
-      return terms.ratio + sizes;
-    } else {
-      return below.value * terms.ratio + static_cast<T>(power) * sizes;
+    V result = terms.ratio;
+    if constexpr (fixed_power != 1) {
+      result = below.value * terms.ratio;
     }
+    if constexpr (has_size) {
+      const V sizes = size_weight * (terms.tau + terms.inverse_tau);
+      result += fixed_power == 1 ? sizes : static_cast<T>(power) * sizes;
+    }
+    return result;
   }
 };
 
