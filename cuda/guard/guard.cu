@@ -415,11 +415,13 @@ DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const Guar
   template DeviceGuardOutcome finish_guard(Context&, const Rings&, const GuardInput<T>&, GuardBuffers&,               \
                                            Point2<double>*, GuardState*, GuardState, std::int64_t&)
 INSTANTIATE(float, RingsView);
-INSTANTIATE(float, MixedRingsView);
+INSTANTIATE(float, SlottedMixedRingsView<std::int16_t>);
+INSTANTIATE(float, SlottedMixedRingsView<std::int32_t>);
 INSTANTIATE(float, SlottedRingsView<std::int16_t>);
 INSTANTIATE(float, SlottedRingsView<std::int32_t>);
 INSTANTIATE(double, RingsView);
-INSTANTIATE(double, MixedRingsView);
+INSTANTIATE(double, SlottedMixedRingsView<std::int16_t>);
+INSTANTIATE(double, SlottedMixedRingsView<std::int32_t>);
 INSTANTIATE(double, SlottedRingsView<std::int16_t>);
 INSTANTIATE(double, SlottedRingsView<std::int32_t>);
 

@@ -105,8 +105,8 @@ struct DeviceGuardOutcome {
 /// back, round by round, in their working positions too; then the vertices that are elsewhere are written to `stored`
 /// (input numbering, aligned to 16 bytes), and the others keep their bits. Only where there are more offenders than the
 /// list holds, nothing is written, and finish_guard() does the rest. Returns the number of launches. `rings`: those of
-/// the free vertices, of which there is one at least; a RingsView, MixedRingsView or SlottedRingsView. Vertices of
-/// GuardInput::held are judged as corners of the elements of free ones and go back with these; they are in no figure
+/// the free vertices, of which there is one at least; a RingsView, SlottedRingsView or SlottedMixedRingsView. Vertices
+/// of GuardInput::held are judged as corners of the elements of free ones and go back with these; they are in no figure
 /// and are not written. Where there are such nothing is written either, unless nobody had to go back, as
 /// HeldView::lines says, too: what becomes of lines is to be seen to first.
 template <class T, class Rings>

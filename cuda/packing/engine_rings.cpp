@@ -20,12 +20,16 @@ Renumbering reorder(Context& context, UnpackedMesh& mesh, Windows windows, Verte
   return {context, rings, order.input_index.data(), order.free_count()};
 }
 
+/// Differences reach only so far, numbers everywhere.
+template <class Slot>
+constexpr Windows windows_for = sizeof(Slot) == 2 ? Windows::far_last : Windows::by_size;
+
 }  // namespace
 
 template <Form form>
 GridRings<form> GridRings<form>::pack(Context& context, UnpackedMesh& mesh, const SmoothingOptions& /*options*/,
                                       VertexOrder& order) {
-  const Renumbering numbers = reorder(context, mesh, form == Form::swap ? Windows::far_last : Windows::by_size, order);
+  const Renumbering numbers = reorder(context, mesh, windows_for<Slot>, order);
   return {slotted<Slot>(context, numbers)};
 }
 
@@ -42,13 +46,15 @@ template struct GridRings<Form::in_place>;
 template <Form form>
 MixedRings<form> MixedRings<form>::pack(Context& context, UnpackedMesh& mesh, const SmoothingOptions& /*options*/,
                                         VertexOrder& order) {
-  const Renumbering numbers = reorder(context, mesh, Windows::by_size, order);
-  return {renumbered(context, numbers, mesh.rings)};
+  const Renumbering numbers = reorder(context, mesh, windows_for<Slot>, order);
+  return {slotted_mixed<Slot>(context, numbers, mesh.rings.opposites.data())};
 }
 
 template <Form form>
 std::size_t MixedRings<form>::bytes(const MeshSize& size) {
-  return static_cast<std::size_t>(size.free_vertices + 2 * size.ring_entries) * sizeof(std::int32_t);
+  // All rings may be too long.
+  return static_cast<std::size_t>(size.free_vertices) * sizeof(RingRecord<Slot>) +
+         static_cast<std::size_t>(2 * size.ring_entries) * sizeof(std::int32_t);
 }
 
 template struct MixedRings<Form::swap>;

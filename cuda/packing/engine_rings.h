@@ -35,11 +35,15 @@ struct UnpackedMesh {
   DeviceColouring& colouring;            ///< of Form B in colour order, else empty; given back by pack()
 };
 
-/// Execution::resident with all of the grid on all of the mesh. In Form A neighbours have near numbers, and slots are
-/// differences of 16 bits; in Form B they are of other colours, so they are far away.
+/// In Form A neighbours have near numbers, and slots are differences of 16 bits; in Form B they are of other colours,
+/// so they are far away.
+template <Form form>
+using SlotOf = std::conditional_t<form == Form::swap, std::int16_t, std::int32_t>;
+
+/// Execution::resident with all of the grid on all of the mesh.
 template <Form form>
 struct GridRings {
-  using Slot = std::conditional_t<form == Form::swap, std::int16_t, std::int32_t>;
+  using Slot = SlotOf<form>;
   using View = SlottedRingsView<Slot>;
 
   SlottedRings<Slot> rings;
@@ -55,9 +59,10 @@ struct GridRings {
 /// Those of a mesh with quadrilaterals, for the same engine.
 template <Form form>
 struct MixedRings {
-  using View = MixedRingsView;
+  using Slot = SlotOf<form>;
+  using View = SlottedMixedRingsView<Slot>;
 
-  DeviceRings rings;
+  SlottedRings<Slot> rings;
 
   static MixedRings pack(Context& context, UnpackedMesh& mesh, const SmoothingOptions& options, VertexOrder& order);
   static std::size_t bytes(const MeshSize& size);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
+#include <type_traits>
 
 #include "trismooth/cuda/packing/renumbering.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
@@ -37,58 +38,78 @@ __global__ void copy_rings(RenumberingView numbers, const std::uint32_t* offsets
   }
 }
 
-/// The vertices opposite in quadrilaterals; triangles have none.
-__global__ void copy_opposites(RenumberingView numbers, const std::int32_t* from, const std::uint32_t* offsets,
-                               std::int32_t* opposites) {
-  const std::int64_t i = thread_index();
-  if (i >= numbers.free_count) {
-    return;
+/// Whether a ring is of such a size, and of such elements, that a record may have it.
+template <class Slot>
+__device__ bool may_be_in_record(const RingsView& rings, std::int32_t input, std::type_identity<Slot> /*slot*/) {
+  const std::int32_t size = rings.ring_size(input);
+  return size >= RingRecord<Slot>::smallest_ring && size <= RingRecord<Slot>::slots;
+}
+template <class Slot>
+__device__ bool may_be_in_record(const MixedRingsView& rings, std::int32_t input, std::type_identity<Slot> /*slot*/) {
+  const auto ring = rings.ring(input);
+  bool may = ring.size() == SlottedMixedRing<Slot>::quadrilaterals;
+  for (int i = 0; i < SlottedMixedRing<Slot>::quadrilaterals && may; ++i) {
+    may = ring.is_quadrilateral(i);
   }
-  const std::int32_t* const ring = from + numbers.from.offsets[numbers.input_index[i]];
-  for (std::uint32_t k = 0; k < offsets[i + 1] - offsets[i]; ++k) {
-    opposites[offsets[i] + k] = ring[k] == no_corner ? no_corner : numbers.new_number[ring[k]];
-  }
+  return may;
 }
 
-/// Fills the records of all rings that fit one, and the sizes of those that do not (0 where one does).
-template <class Slot>
-__global__ void fill_records(RenumberingView numbers, RingRecord<Slot>* records, std::uint32_t* long_sizes) {
+/// What belongs into slot `k` of a ring that may be in a record: beyond the end of a ring of triangles its first
+/// neighbour.
+__device__ std::int32_t in_slot(const RingsView& rings, std::int32_t input, std::int32_t k) {
+  return rings.ring(input)[k < rings.ring_size(input) ? k : 0];
+}
+__device__ std::int32_t in_slot(const MixedRingsView& rings, std::int32_t input, std::int32_t k) {
+  return rings.ring(input)[k];
+}
+
+/// How many numbers the list of long rings has of one of them.
+__device__ std::int32_t numbers_in_list(const RingsView& rings, std::int32_t input) {
+  return rings.ring_size(input);
+}
+__device__ std::int32_t numbers_in_list(const MixedRingsView& rings, std::int32_t input) {
+  return 2 * rings.ring_size(input);
+}
+
+/// Fills the records of all rings that fit one, and how many numbers those have that do not (0 where one does). `from`:
+/// the rings that are renumbered.
+template <class Slot, class Rings>
+__global__ void fill_records(RenumberingView numbers, Rings from, RingRecord<Slot>* records,
+                             std::uint32_t* long_sizes) {
   const std::int64_t i = thread_index();
   if (i >= numbers.free_count) {
     return;
   }
   const auto v = static_cast<std::int32_t>(i);
   const std::int32_t input = numbers.input_index[v];
-  const std::int32_t* const ring = numbers.from.ring(input);
-  const std::int32_t size = numbers.from.ring_size(input);
-  bool fits = size >= RingRecord<Slot>::smallest_ring && size <= RingRecord<Slot>::slots;
+  bool fits = may_be_in_record(from, input, std::type_identity<Slot>{});
   alignas(RingRecord<Slot>) Slot slots[RingRecord<Slot>::slots];
   for (std::int32_t k = 0; k < RingRecord<Slot>::slots && fits; ++k) {
-    const std::int32_t neighbour = numbers.new_number[ring[k < size ? k : 0]];
-    const std::int32_t value = sizeof(Slot) == 2 ? neighbour - v : neighbour;
+    const std::int32_t other = numbers.new_number[in_slot(from, input, k)];
+    const std::int32_t value = sizeof(Slot) == 2 ? other - v : other;
     slots[k] = static_cast<Slot>(value);
     fits = slots[k] == value;
   }
   if (fits) {
     memcpy(&records[v], slots, sizeof(slots));
   }
-  long_sizes[v] = fits ? 0 : static_cast<std::uint32_t>(size);
+  long_sizes[v] = fits ? 0 : static_cast<std::uint32_t>(numbers_in_list(from, input));
 }
 
-template <class Slot>
-__global__ void copy_long_rings(RenumberingView numbers, const std::uint32_t* begins, RingRecord<Slot>* records,
-                                std::int32_t* long_rings) {
+template <class Slot, class Rings>
+__global__ void copy_long_rings(RenumberingView numbers, Rings from, const std::uint32_t* begins,
+                                RingRecord<Slot>* records, std::int32_t* long_rings) {
   const std::int64_t i = thread_index();
   if (i >= numbers.free_count || begins[i] == begins[i + 1]) {
     return;
   }
   const std::int32_t input = numbers.input_index[i];
-  const std::int32_t* const ring = numbers.from.ring(input);
-  const std::int32_t size = numbers.from.ring_size(input);
-  for (std::int32_t k = 0; k < size; ++k) {
-    long_rings[begins[i] + static_cast<std::uint32_t>(k)] = numbers.new_number[ring[k]];
+  const auto ring = from.ring(input);
+  for (std::int32_t k = 0; k < numbers_in_list(from, input); ++k) {
+    const std::int32_t other = ring[k];
+    long_rings[begins[i] + static_cast<std::uint32_t>(k)] = other == no_corner ? no_corner : numbers.new_number[other];
   }
-  records[i] = RingRecord<Slot>::of_long_ring(begins[i], size);
+  records[i] = RingRecord<Slot>::of_long_ring(begins[i], from.ring_size(input));
 }
 
 __global__ void copy_colours(RenumberingView numbers, const std::int32_t* colours, std::uint8_t* copied) {
@@ -115,7 +136,6 @@ DeviceRings renumbered(Context& context, const Renumbering& numbers, const Devic
   to.offsets = DeviceBuffer<std::uint32_t>(context, static_cast<std::size_t>(view.free_count) + 1);
   to.offsets.fill_bytes(0);
   to.neighbours = DeviceBuffer<std::int32_t>(context, from.neighbours.size());
-  to.opposites = DeviceBuffer<std::int32_t>(context, from.opposites.size());
   if (view.free_count > 0) {
     const unsigned blocks = blocks_for(view.free_count);
     find_ring_sizes<<<blocks, block_size, 0, context.stream()>>>(view, to.offsets.data());
@@ -123,17 +143,14 @@ DeviceRings renumbered(Context& context, const Renumbering& numbers, const Devic
     sum_before(context, to.offsets.data(), std::int64_t{view.free_count} + 1);
     copy_rings<<<blocks, block_size, 0, context.stream()>>>(view, to.offsets.data(), to.neighbours.data());
     TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-    if (from.has_quadrilaterals()) {
-      copy_opposites<<<blocks, block_size, 0, context.stream()>>>(view, from.opposites.data(), to.offsets.data(),
-                                                                  to.opposites.data());
-      TRISMOOTH_CUDA_CHECK(cudaGetLastError());
-    }
   }
   return to;
 }
 
-template <class Slot>
-SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers) {
+namespace {
+
+template <class Slot, class Rings>
+SlottedRings<Slot> slotted_from(Context& context, const Renumbering& numbers, const Rings& from) {
   const RenumberingView view = numbers.view();
   SlottedRings<Slot> to;
   const auto count = static_cast<std::size_t>(view.free_count);
@@ -144,7 +161,7 @@ SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers) {
   DeviceBuffer<std::uint32_t> begins(context, count + 1);
   begins.fill_bytes(0);
   const unsigned blocks = blocks_for(view.free_count);
-  fill_records<<<blocks, block_size, 0, context.stream()>>>(view, to.records.data(), begins.data());
+  fill_records<<<blocks, block_size, 0, context.stream()>>>(view, from, to.records.data(), begins.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   sum_before(context, begins.data(), std::int64_t{view.free_count} + 1);
   std::uint32_t entries = 0;
@@ -154,14 +171,28 @@ SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers) {
   // See SlottedRing.
   to.long_rings = DeviceBuffer<std::int32_t>(context, std::size_t{entries} + RingRecord<Slot>::slots);
   to.long_rings.fill_bytes(0);
-  copy_long_rings<<<blocks, block_size, 0, context.stream()>>>(view, begins.data(), to.records.data(),
+  copy_long_rings<<<blocks, block_size, 0, context.stream()>>>(view, from, begins.data(), to.records.data(),
                                                                to.long_rings.data());
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
   return to;
 }
 
-template SlottedRings<std::int16_t> slotted(Context&, const Renumbering&);
-template SlottedRings<std::int32_t> slotted(Context&, const Renumbering&);
+}  // namespace
+
+template <class Slot>
+SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers) {
+  return slotted_from<Slot>(context, numbers, numbers.view().from);
+}
+template <class Slot>
+SlottedRings<Slot> slotted_mixed(Context& context, const Renumbering& numbers, const std::int32_t* opposites) {
+  return slotted_from<Slot>(context, numbers, MixedRingsView{numbers.view().from, opposites});
+}
+
+#define INSTANTIATE(Slot)                                            \
+  template SlottedRings<Slot> slotted(Context&, const Renumbering&); \
+  template SlottedRings<Slot> slotted_mixed(Context&, const Renumbering&, const std::int32_t*)
+INSTANTIATE(std::int16_t);
+INSTANTIATE(std::int32_t);
 
 DeviceBuffer<std::uint8_t> renumbered(Context& context, const Renumbering& numbers, const std::int32_t* colours) {
   const RenumberingView view = numbers.view();

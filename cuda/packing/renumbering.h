@@ -30,11 +30,15 @@ class Renumbering {
   RenumberingView view_;
 };
 
-/// The rings of the free vertices. `from`: those that are renumbered.
+/// The rings of the free vertices, of triangles. `from`: those that are renumbered.
 DeviceRings renumbered(Context& context, const Renumbering& numbers, const DeviceRings& from);
-/// The rings of the free vertices in records.
+/// The rings of the free vertices in records, of triangles.
 template <class Slot>
 SlottedRings<Slot> slotted(Context& context, const Renumbering& numbers);
+/// The rings of the free vertices in records, where there are quadrilaterals. `opposites`: DeviceRings::opposites of
+/// the rings that are renumbered.
+template <class Slot>
+SlottedRings<Slot> slotted_mixed(Context& context, const Renumbering& numbers, const std::int32_t* opposites);
 /// The colours of the free vertices, below 256; `colours` are of all vertices in input numbering. Null: none.
 DeviceBuffer<std::uint8_t> renumbered(Context& context, const Renumbering& numbers, const std::int32_t* colours);
 

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "trismooth/base/host_device.h"
+#include "trismooth/base/triangle_view.h"
 #include "trismooth/cuda/runtime/device_buffer.h"
 
 namespace trismooth::cuda {
@@ -66,6 +67,7 @@ class SlottedRing {
 
   /// The number of neighbour `i`.
   TRISMOOTH_HOST_DEVICE std::int32_t operator[](int i) const { return is_long_ ? long_ring_[i] : first_ + slots_[i]; }
+  TRISMOOTH_HOST_DEVICE bool is_long() const { return is_long_; }
 
  private:
   std::int32_t first_;
@@ -87,13 +89,55 @@ struct SlottedRingsView {
   }
 };
 
-/// Owns them.
+/// One ring of a mesh with quadrilaterals: a MixedRing. Most are of four quadrilaterals; their records have the four
+/// neighbours and then the four vertices opposite. All others are in the list of long rings, which has an opposite for
+/// each neighbour as well, no_corner in a triangle.
+template <class Slot>
+class SlottedMixedRing : public SlottedRing<Slot> {
+ public:
+  static constexpr int quadrilaterals = RingRecord<Slot>::slots / 2;  ///< of those that are in a record
+
+  TRISMOOTH_HOST_DEVICE SlottedMixedRing(std::int32_t vertex, const RingRecord<Slot>& record,
+                                         const std::int32_t* long_rings)
+      : SlottedRing<Slot>(vertex, record, long_rings), count_(size_of(record)) {}
+
+  static TRISMOOTH_HOST_DEVICE std::int32_t size_of(const RingRecord<Slot>& record) {
+    return record.is_long() ? record.long_size() : quadrilaterals;
+  }
+  TRISMOOTH_HOST_DEVICE int size() const { return count_; }
+  TRISMOOTH_HOST_DEVICE bool is_quadrilateral(int i) const {
+    return !this->is_long() || (*this)[count_ + i] != no_corner;
+  }
+
+ private:
+  std::int32_t count_;
+};
+
+/// SlottedRingsView of a mesh with quadrilaterals.
+template <class Slot>
+struct SlottedMixedRingsView {
+  std::int32_t size;
+  const RingRecord<Slot>* records;
+  const std::int32_t* long_rings;
+
+  TRISMOOTH_HOST_DEVICE std::int32_t ring_size(std::int32_t vertex) const {
+    return SlottedMixedRing<Slot>::size_of(records[vertex]);
+  }
+  TRISMOOTH_HOST_DEVICE SlottedMixedRing<Slot> ring(std::int32_t vertex) const {
+    return {vertex, records[vertex], long_rings};
+  }
+};
+
+/// Owns them, those of triangles or those of a mesh with quadrilaterals.
 template <class Slot>
 struct SlottedRings {
   DeviceBuffer<RingRecord<Slot>> records;
   DeviceBuffer<std::int32_t> long_rings;
 
   SlottedRingsView<Slot> view() const {
+    return {static_cast<std::int32_t>(records.size()), records.data(), long_rings.data()};
+  }
+  SlottedMixedRingsView<Slot> mixed_view() const {
     return {static_cast<std::int32_t>(records.size()), records.data(), long_rings.data()};
   }
 };

@@ -362,11 +362,12 @@ void DeviceTargets<T>::find_anew(const Rings& rings, const PointArray<T>& points
 #define INSTANTIATE_FOR(T, Rings)                                                \
   template void DeviceTargets<T>::keep(const Rings&, const PointArray<T>&, int); \
   template void DeviceTargets<T>::find(const Rings&, const PointArray<T>&, const LocalFrame*)
-#define INSTANTIATE(T)                                \
-  template class DeviceTargets<T>;                    \
-  INSTANTIATE_FOR(T, RingsView);                      \
-  INSTANTIATE_FOR(T, MixedRingsView);                 \
-  INSTANTIATE_FOR(T, SlottedRingsView<std::int16_t>); \
+#define INSTANTIATE(T)                                     \
+  template class DeviceTargets<T>;                         \
+  INSTANTIATE_FOR(T, RingsView);                           \
+  INSTANTIATE_FOR(T, SlottedMixedRingsView<std::int16_t>); \
+  INSTANTIATE_FOR(T, SlottedMixedRingsView<std::int32_t>); \
+  INSTANTIATE_FOR(T, SlottedRingsView<std::int16_t>);      \
   INSTANTIATE_FOR(T, SlottedRingsView<std::int32_t>)
 INSTANTIATE(float);
 INSTANTIATE(double);

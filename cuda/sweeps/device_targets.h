@@ -34,7 +34,7 @@ class DeviceTargets {
   void keep(const Rings& rings, const PointArray<T>& points, int exponent);
 
   /// Queues the finding for smoothing from these positions. Nothing where the method is another one. `Rings`:
-  /// RingsView, MixedRingsView or SlottedRingsView. `frame`: the local frame that they are in, on the device.
+  /// RingsView, SlottedRingsView or SlottedMixedRingsView. `frame`: the local frame that they are in, on the device.
   template <class Rings>
   void find(const Rings& rings, const PointArray<T>& points, const LocalFrame* frame);
 

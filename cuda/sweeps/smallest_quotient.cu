@@ -30,11 +30,13 @@ void launch_smallest_quotient(const Rings& rings, const PointArray<T>& points, S
 #define INSTANTIATE(T, Rings) \
   template void launch_smallest_quotient(const Rings&, const PointArray<T>&, SweepSums*, cudaStream_t)
 INSTANTIATE(float, RingsView);
-INSTANTIATE(float, MixedRingsView);
+INSTANTIATE(float, SlottedMixedRingsView<std::int16_t>);
+INSTANTIATE(float, SlottedMixedRingsView<std::int32_t>);
 INSTANTIATE(float, SlottedRingsView<std::int16_t>);
 INSTANTIATE(float, SlottedRingsView<std::int32_t>);
 INSTANTIATE(double, RingsView);
-INSTANTIATE(double, MixedRingsView);
+INSTANTIATE(double, SlottedMixedRingsView<std::int16_t>);
+INSTANTIATE(double, SlottedMixedRingsView<std::int32_t>);
 INSTANTIATE(double, SlottedRingsView<std::int16_t>);
 INSTANTIATE(double, SlottedRingsView<std::int32_t>);
 

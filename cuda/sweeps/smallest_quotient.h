@@ -9,7 +9,7 @@
 namespace trismooth::cuda {
 
 /// Queues the measuring of the smallest quotient of the triangles with a free vertex into sums->min_quotient. `Rings`:
-/// RingsView, MixedRingsView or SlottedRingsView.
+/// RingsView, SlottedRingsView or SlottedMixedRingsView.
 template <class T, class Rings>
 void launch_smallest_quotient(const Rings& rings, const PointArray<T>& points, SweepSums* sums, cudaStream_t stream);
 

@@ -45,24 +45,24 @@ struct Pieces {
 constexpr int enough_left_over = 32;
 
 /// Evaluates the block's vertices by methods with an update in registers. `list` is the warp's own.
-template <bool marks, class Update, class T, class Slot>
+template <bool marks, class Update, class T, class Rings>
 __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces& pieces,
-                                             const SweepData<T, SlottedRingsView<Slot>>& data, std::int32_t* list,
+                                             const SweepData<T, Rings>& data, std::int32_t* list,
                                              ThreadTally<T>& tally) {
+  using Record = decltype(fetch_record(data.rings, 0));
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
   const auto fetch = [&](std::int64_t first) {
-    return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread)
-                                       : RingRecord<Slot>{};
+    return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread) : Record{};
   };
   std::int32_t piece = 0;
   std::int64_t first = pieces.first(piece);
-  RingRecord<Slot> record = fetch(first);
+  Record record = fetch(first);
   while (first < pieces.end) {
     int listed = 0;
     do {
       // The next record is on its way while this one is worked on.
       const std::int64_t next_first = pieces.first(++piece);
-      const RingRecord<Slot> next = fetch(next_first);
+      const Record next = fetch(next_first);
       const bool active = first + thread < pieces.end;
       const std::int32_t v = static_cast<std::int32_t>(first) + thread;
       listed = added_to_list(list, listed, visit<marks>(method, v, record, active, data, tally), v);
@@ -84,9 +84,9 @@ __device__ __forceinline__ void sweep_from_memory(const Update& method, const Pi
   if (v < pieces.end) {
     const auto vertex = static_cast<std::int32_t>(v);
     const Point2<T> position = data.from.load(vertex);
+    const auto update = [&](const auto& ring) { return update_over(method, vertex, position, ring); };
     settle_and_mark<marks>(vertex, position, data.rings.ring_size(vertex),
-                           update_over(method, vertex, position, ring_in_memory(data.from, data.rings, vertex)), data,
-                           tally);
+                           with_ring_in_memory(data.from, data.rings, vertex, update), data, tally);
   }
 }
 

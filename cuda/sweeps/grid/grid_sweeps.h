@@ -21,7 +21,7 @@ struct GridBuffer {
 };
 
 /// What these sweeps work on, in packed numbering: free vertices first, batch after batch. Form B uses one
-/// buffer for both. `Rings`: SlottedRingsView, or MixedRingsView where there are quadrilaterals.
+/// buffer for both. `Rings`: SlottedRingsView, or SlottedMixedRingsView where there are quadrilaterals.
 template <class T, class Rings>
 struct GridMesh {
   Rings rings;  ///< of the free vertices

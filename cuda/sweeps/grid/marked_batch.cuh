@@ -26,7 +26,7 @@ __device__ void sweep_marked(const Update& method, std::uint32_t* marks, bool al
         list_marked(marks, all, lane < words_at_a_time ? base + lane * warps + warp : beyond, begin, end, list);
     tally.evaluated += lane == 0 ? static_cast<unsigned>(listed) : 0;
     int decided = 0;
-    constexpr bool has_teams = updates_in_registers<Update, T, Rings>;
+    constexpr bool has_teams = updates_in_registers<Update, T, Rings> && !long_rings_go_alone<Rings>;
     if (!has_teams || listed > few_for_teams) {
       int left_over = 0;
       for (; listed - decided > (has_teams ? few_for_teams : 0); decided += 32) {

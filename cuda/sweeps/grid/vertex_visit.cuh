@@ -2,30 +2,44 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 
 #include "trismooth/cuda/packing/slotted_rings.h"
 #include "trismooth/cuda/primitives/point_array.h"
 #include "trismooth/cuda/primitives/vertex_marks.cuh"
 #include "trismooth/cuda/sweeps/thread_tally.cuh"
 #include "trismooth/cuda/topology/rings.h"
+#include "trismooth/cuda/update/quadrilateral_fan.cuh"
+#include "trismooth/cuda/update/register_ring.cuh"
 #include "trismooth/cuda/update/ring_in_memory.cuh"
 #include "trismooth/cuda/update/team_update.cuh"
 #include "trismooth/cuda/update/vertex_update.cuh"
 
 namespace trismooth::cuda {
 
-/// Rings in records: those of triangles.
-template <class Rings>
-concept RecordedRings = requires(const Rings& rings) {
-  rings.records;
+/// The rings in registers of those that are in records.
+template <class T, class Rings>
+struct InRegisters;
+template <class T, class Slot>
+struct InRegisters<T, SlottedRingsView<Slot>> {
+  using Type = RegisterRing<T, largest_register_ring>;
+};
+template <class T, class Slot>
+struct InRegisters<T, SlottedMixedRingsView<Slot>> {
+  using Type = QuadrilateralFan<T>;
 };
 
 /// Whether vertices with such rings are updated in registers, by methods that have an update there. Others read their
 /// rings from memory.
 template <class Update, class T, class Rings>
-inline constexpr bool updates_in_registers = has_register_update<Update, T>&& RecordedRings<Rings>;
+inline constexpr bool updates_in_registers = has_register_update<Update, T, typename InRegisters<T, Rings>::Type>;
+/// Whether rings that are not for registers are those of one thread, and not of a team: where there are quadrilaterals
+/// such rings may be most.
+template <class Rings>
+inline constexpr bool long_rings_go_alone = MixedRing<decltype(std::declval<Rings>().ring(0))>;
 
-/// What a sweep reads and writes. `Rings`: SlottedRingsView or MixedRingsView.
+/// What a sweep reads and writes. `Rings`: SlottedRingsView or SlottedMixedRingsView.
 template <class T, class Rings>
 struct SweepData {
   Rings rings;
@@ -47,9 +61,9 @@ __device__ __forceinline__ void mark_if_free(std::int32_t v, const SweepData<T, 
 
 /// The record of a vertex, which never changes: read past the cache's coherence, so that it stays there from sweep to
 /// sweep.
-template <class Slot>
-__device__ __forceinline__ RingRecord<Slot> fetch_record(const SlottedRingsView<Slot>& rings, std::int32_t v) {
-  RingRecord<Slot> record;
+template <class Rings>
+__device__ __forceinline__ auto fetch_record(const Rings& rings, std::int32_t v) {
+  std::remove_cvref_t<decltype(*rings.records)> record;
   const auto* const from = reinterpret_cast<const int4*>(&rings.records[v]);
   auto* const to = reinterpret_cast<int4*>(&record);
 #pragma unroll
@@ -59,14 +73,14 @@ __device__ __forceinline__ RingRecord<Slot> fetch_record(const SlottedRingsView<
   return record;
 }
 
-/// What stands for a record where there are none.
-struct RingSize {
-  std::int32_t size;
-
-  __device__ std::int32_t ring_size() const { return size; }
-};
-__device__ __forceinline__ RingSize fetch_record(const MixedRingsView& rings, std::int32_t v) {
-  return {rings.ring_size(v)};
+/// The size of the ring with this record.
+template <class Slot>
+__device__ __forceinline__ int ring_size(const SlottedRingsView<Slot>& /*rings*/, const RingRecord<Slot>& record) {
+  return record.ring_size();
+}
+template <class Slot>
+__device__ __forceinline__ int ring_size(const SlottedMixedRingsView<Slot>& /*rings*/, const RingRecord<Slot>& record) {
+  return SlottedMixedRing<Slot>::size_of(record);
 }
 
 /// Writes where an evaluated vertex is.
@@ -82,7 +96,13 @@ __device__ __forceinline__ void settle(std::int32_t v, const Move<T>& move, cons
 template <class Update, class T, class Rings>
 __device__ __noinline__ VertexMove<T> update_from_memory(Update method, std::int32_t v, Point2<T> position,
                                                          PointArray<T> points, Rings rings) {
-  return update_over(method, v, position, ring_in_memory(points, rings, v));
+  if constexpr (updates_in_registers<Update, T, Rings>) {
+    // Those left over are few, and not worth code of their own for fans.
+    return update_over(method, v, position, ring_in_memory(points, rings, v));
+  } else {
+    return with_ring_in_memory(points, rings, v,
+                               [&](const auto& ring) { return update_over(method, v, position, ring); });
+  }
 }
 
 /// Writes where an evaluated vertex is, counts its move and marks what it may move.
@@ -108,9 +128,14 @@ __device__ __forceinline__ void visit_by_team(const Update& method, std::int32_t
   const Point2<T> position = data.from.load(v);
   const auto numbers = data.rings.ring(v);
   const int size = active ? data.rings.ring_size(v) : 0;
-  const VertexMove<T> result = evaluate_by_team<Update>(
-      position, size, [&](int i) { return data.from.load(numbers[i]); },
-      [&] { return update_from_memory(method, v, position, data.from, data.rings); });
+  const auto alone = [&] { return update_from_memory(method, v, position, data.from, data.rings); };
+  VertexMove<T> result;
+  if constexpr (MixedRing<decltype(numbers)>) {
+    result = evaluate_by_team<Update>(position, size, ring_in_memory(data.from, data.rings, v), alone);
+  } else {
+    result = evaluate_by_team<Update>(
+        position, size, [&](int i) { return data.from.load(numbers[i]); }, alone);
+  }
   __syncwarp();  // all threads of the team have read the position that is written now
   if (active && team_lane() == 0) {
     settle(v, result.move, data);
@@ -125,6 +150,11 @@ __device__ __forceinline__ void visit_by_team(const Update& method, std::int32_t
       }
       for (int i = team_lane(); i < size; i += team_size) {
         mark_if_free(numbers[i], data);
+        if constexpr (MixedRing<decltype(numbers)>) {
+          if (numbers.is_quadrilateral(i)) {
+            mark_if_free(numbers[size + i], data);
+          }
+        }
       }
     }
   }
@@ -141,20 +171,32 @@ __device__ __forceinline__ bool visit(const Update& method, std::int32_t v, cons
   VertexMove<T> result;
   int size = 0;
   if constexpr (updates_in_registers<Update, T, Rings>) {
-    RegisterRing<T, largest_register_ring> ring;
-    fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
-    size = ring.size;
-    if (size == 0) {
-      return active;
-    }
-    if (!try_update(method, position, ring, result)) {
-      return true;
+    typename InRegisters<T, Rings>::Type ring;
+    if constexpr (long_rings_go_alone<Rings>) {
+      if (!active) {
+        return false;
+      }
+      size = ring_size(data.rings, record);
+      if (!fetch_ring(v, record, data.rings.long_rings, data.from, ring)) {
+        result = update_over(method, v, position, ring_in_memory(data.from, data.rings, v));
+      } else if (!try_update(method, position, ring, result)) {
+        return true;
+      }
+    } else {
+      fetch_ring(v, record, active, data.rings.long_rings, data.from, ring);
+      size = ring.size;
+      if (size == 0) {
+        return active;
+      }
+      if (!try_update(method, position, ring, result)) {
+        return true;
+      }
     }
   } else {
     if (!active) {
       return false;
     }
-    size = record.ring_size();
+    size = ring_size(data.rings, record);
     result = update_from_memory(method, v, position, data.from, data.rings);
   }
   settle_and_mark<marks>(v, position, size, result, data, tally);
