@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -72,8 +75,33 @@ std::optional<double> find_value_of(std::string_view name, const Quality& qualit
   return std::nullopt;
 }
 
-/// What the report has of one kind by the name; no number where it has no such elements.
+/// The names of the statistics of these metrics.
+template <class Metrics>
+std::vector<std::string> statistics_of(const Metrics& metrics) {
+  std::vector<std::string> names;
+  for (const std::string_view metric : metrics) {
+    for (const auto& [prefix, statistic] : statistics) {
+      names.emplace_back(prefix).append(metric);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> names_of_kind(ElementKind kind) {
+  std::vector<std::string_view> metrics;
+  std::ranges::transform(all_metrics(kind), std::back_inserter(metrics), &MetricInfo::name);
+  std::vector<std::string> names = statistics_of(metrics);
+  names.insert(names.end(), {"inverted", "degenerate", std::string(info(Metric::min_angle).name),
+                             std::string(info(Metric::max_angle).name)});
+  return names;
+}
+
+/// What the report has of one kind by the name; no number where it has no such elements. Nothing for a metric that they
+/// have none of.
 std::optional<double> find_value_of(std::string_view name, const QualityReport& report, ElementKind kind) {
+  if (std::ranges::count(names_of_kind(kind), name) == 0) {
+    return std::nullopt;
+  }
   if (report.kinds.empty() && kind == ElementKind::triangle) {
     return find_value_of(name, report);
   }
@@ -161,21 +189,13 @@ std::vector<std::string> gate_names() {
                                  std::string(info(Metric::min_angle).name),
                                  std::string(info(Metric::max_angle).name),
                                  std::string(size_ratio_info.name)};
-  std::vector<std::string> metrics;
-  for (const MetricInfo* const metric : metrics_of_any_kind()) {
-    for (const auto& [prefix, statistic] : statistics) {
-      metrics.emplace_back(prefix).append(metric->name);
-    }
-  }
-  names.insert(names.end(), metrics.begin(), metrics.end());
-  for (const auto& [prefix, statistic] : statistics) {
-    names.emplace_back(prefix).append(size_ratio_info.name);
-  }
-  metrics.insert(metrics.end(), {"inverted", "degenerate", std::string(info(Metric::min_angle).name),
-                                 std::string(info(Metric::max_angle).name)});
+  std::vector<std::string_view> metrics;
+  std::ranges::transform(metrics_of_any_kind(), std::back_inserter(metrics), &MetricInfo::name);
+  metrics.push_back(size_ratio_info.name);
+  std::ranges::move(statistics_of(metrics), std::back_inserter(names));
   for (const auto& [prefix, kind] : kinds) {
-    for (const std::string& metric : metrics) {
-      names.emplace_back(prefix).append(metric);
+    for (const std::string& name : names_of_kind(kind)) {
+      names.emplace_back(prefix).append(name);
     }
   }
   return names;
@@ -193,8 +213,8 @@ double gate_value(std::string_view name, const QualityReport& report, const std:
   const std::string prefixes = list_text(statistics, [](const auto& statistic) { return statistic.first; });
   throw std::invalid_argument(fmt::format(
       "unknown metric '{}'; valid are triangles, quadrilaterals, inverted, degenerate, {}, {}, {}, min_angle, "
-      "max_angle, {}, and one of {} before one of {}, {}; 'triangle.' or 'quadrilateral.' before a name takes those "
-      "alone{}",
+      "max_angle, {}, and one of {} before one of {}, {}; 'triangle.' or 'quadrilateral.' before inverted, degenerate, "
+      "an angle or a metric takes those alone{}",
       name, invalid_quadratic, crossings, overlaps, size_ratio_info.name, prefixes,
       list_text(metrics_of_any_kind(), [](const MetricInfo* metric) { return metric->name; }), size_ratio_info.name,
       did_you_mean(name, gate_names())));

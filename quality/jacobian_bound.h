@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "trismooth/base/exact_arithmetic.h"
 #include "trismooth/base/host_device.h"
 
 namespace trismooth {

@@ -83,12 +83,16 @@ class Commit final : public FollowingNodes {
       const QuadraticElement& quadratic = mesh_.quadratics[static_cast<std::size_t>(q)];
       const auto e = static_cast<std::size_t>(quadratic.element);
       const std::span<const std::int32_t> listed = mesh_.elements[e];
-      const auto is_valid = [&](std::span<const Point2<double>> points, bool is_reversed) {
-        return jacobian_bound(quadratic, listed, is_reversed, points).is_valid();
-      };
       const bool was_reversed = mesh_.rings.reversed[e] != 0;
-      return std::ranges::is_permutation(listed, corners) && !is_valid(after_, was_reversed != is_turned) &&
-             is_valid(before(), was_reversed);
+      if (!std::ranges::is_permutation(listed, corners)) {
+        return false;
+      }
+      const JacobianBound now = jacobian_bound(quadratic, listed, was_reversed != is_turned, after_);
+      if (now.is_valid()) {
+        return false;
+      }
+      const JacobianBound was = jacobian_bound(quadratic, listed, was_reversed, before());
+      return was.is_valid() || (now.is_invalid() && !was.is_invalid());
     });
   }
 

@@ -115,8 +115,9 @@ SmoothingResult smooth(R&& points, const IndexView& triangles, const SmoothingOp
 /// middle whose ends stay keeps its bits, as on a curved boundary. Where that cannot be the middle stays and the ends
 /// of its sides are held: a middle of two different sides, one that is a corner as well, one of
 /// constraints.other_cells, or one that the constraints name. With options.guard every element that was valid by
-/// jacobian_bound() (quadratic_triangle.h), which finds its smallest Jacobian in closed form, is so afterwards: the
-/// corners of one that would be go back, with the middles of their sides.
+/// jacobian_bound() (quadratic_triangle.h), which finds its smallest Jacobian in closed form, is so afterwards, and
+/// none whose smallest Jacobian was 0 to rounding is invalid: the corners of one that would be go back, with the
+/// middles of their sides.
 ///
 /// `constraints` are those of smooth(); `regions` has one number a triangle of six nodes. The result counts corners
 /// (moved_vertices) and says which went back; middles are in no count. Throws as SmoothingPlan does, the points are

@@ -246,10 +246,10 @@ void Deformer::step_checked() {
                     counted(ended, "step", "steps")));
   }
   if (folded_quads_ > 0) {
-    run_.warn(
-        counted(folded_quads_, "quadrilateral that is held is", "quadrilaterals that are held are") +
-        " folded, or have a flat corner, where most are: they go where their corners are told, and are in no figure "
-        "and no gate; two triangles in place of each follow the boundary");
+    run_.warn(counted(folded_quads_, "quadrilateral that is held is folded, or has",
+                      "quadrilaterals that are held are folded, or have") +
+              " a flat corner, where most are: they go where their corners are told, and are in no figure "
+              "and no gate; two triangles in place of each follow the boundary");
   }
   result.deformation = std::move(steps_);
   for (std::string& warning : warnings_of_deformation(run_.result)) {

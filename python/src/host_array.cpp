@@ -270,8 +270,8 @@ TriangleArray::TriangleArray(const HostArray& array)
   };
   if (array.dimensions() != 2 || !is_taken(array.extent(1))) {
     array.raise_value("shape " + array.shape_text() +
-                      "; expected (M, 3), (M, 4) with quadrilaterals, (M, 6) for triangles of six nodes, or (M, 9) "
-                      "with quadrilaterals of eight or nine" +
+                      "; expected (M, 3), (M, 4) with quadrilaterals, (M, 6) for triangles of six nodes, or (M, 8) "
+                      "or (M, 9) with quadrilaterals of eight or nine" +
                       transposed(array, "triangles", 3));
   }
   if (array.extent(1) != 3 && array.extent(1) != 6 && array.kind() == 'u' &&
@@ -284,6 +284,7 @@ TriangleArray::TriangleArray(const HostArray& array)
   row_stride_ = array.stride(0);
   column_stride_ = array.stride(1);
   copy_unless_taken(array);
+  has_middles_ = nodes_ == 6;
   if (nodes_ > 6) {
     corners_.reserve(4 * size_);
     for_each_row([&](std::size_t /*element*/, const auto& number) {
@@ -292,6 +293,7 @@ TriangleArray::TriangleArray(const HostArray& array)
         ++count;
       }
       const bool is_triangle = count == 3 || count == 6;
+      has_middles_ = has_middles_ || count != (is_triangle ? 3 : 4);
       for (std::size_t k = 0; k < 4; ++k) {
         const bool is_there = k < count && !(is_triangle && k == 3);
         corners_.push_back(is_there ? static_cast<std::int64_t>(number(k)) : no_corner);

@@ -95,7 +95,7 @@ class TriangleArray {
   std::size_t size() const { return size_; }
   std::size_t nodes() const { return nodes_; }
   /// Whether some may have nodes in the middle of their sides.
-  bool may_have_middles() const { return nodes_ >= 6; }
+  bool may_have_middles() const { return has_middles_; }
   /// Corners: of triangles of six nodes the first three; four where quadrilaterals may be among them.
   IndexView corners() const;
   /// All numbers, where there may be middles. Throws MeshError for one that is none of the vertices and has no place in
@@ -111,6 +111,7 @@ class TriangleArray {
 
   std::size_t size_;
   std::size_t nodes_;
+  bool has_middles_ = false;
   const std::byte* first_;
   std::ptrdiff_t row_stride_;
   std::ptrdiff_t column_stride_;

@@ -197,6 +197,21 @@ def test_quadrangles_are_smoothed_and_their_nodes_slide() -> None:
     assert not slid & nodes_on(0)
 
 
+@pytest.mark.parametrize("kind, incomplete", [(10, 0), (16, 1)])
+def test_quadrangles_of_second_order_are_smoothed_with_their_middles(kind: int, incomplete: int) -> None:
+    first, second = two_squares()
+    gmsh.option.setNumber("Mesh.SecondOrderIncomplete", incomplete)
+    gmsh.model.mesh.setRecombine(2, second)
+    gmsh.model.mesh.generate(2)
+    gmsh.model.mesh.setOrder(2)
+    elements = gmsh.model.mesh.getElementsByType(kind)[1].reshape(-1, 9 if kind == 10 else 8)
+    assert len(elements) > 10
+    moved = moved_by(method="mean-ratio")
+    assert moved & {int(node) for node in elements[:, :4].ravel()}
+    assert moved & {int(node) for node in elements[:, 4:].ravel()}
+    assert moved <= nodes_on(2, first) | nodes_on(2, second)
+
+
 TAGS = 1000 + 7 * np.random.default_rng(11).permutation(len(G.points))
 
 

@@ -60,6 +60,16 @@ def test_arrays_of_eight_columns_and_other_elements_among_them():
         trismooth.smooth(points, mixed)
 
 
+def test_corners_alone_in_rows_of_nine_are_corners_alone():
+    points, elements, _ = grid(centres=False)
+    points, corners = points[: (N + 1) ** 2], elements[:, :4]
+    rows = np.pad(corners, ((0, 0), (0, 5)), constant_values=-1)
+    for options in ({}, {"slide": "straight", "method": "mean-ratio"}):
+        expected = trismooth.smooth(points, corners, **options)
+        assert (trismooth.smooth(points, rows, **options).points == expected.points).all()
+    assert trismooth.Plan(rows, len(points)).n_triangles == N * N
+
+
 def test_what_arrays_with_middles_cannot_do_is_said():
     points, elements, _ = grid()
     with pytest.raises(ValueError, match="slide: is for elements of corners alone"):

@@ -19,7 +19,7 @@ __all__ = ["smooth"]
 
 _LINE = 1  # Gmsh's number for the type of elements
 #: VTK's for the same types, by Gmsh's: lines, triangles and quadrangles. Gmsh lists nodes as VTK does.
-_VTK_TYPES = {_LINE: 3, 2: 5, 9: 22, 3: 9, 16: 23}
+_VTK_TYPES = {_LINE: 3, 2: 5, 9: 22, 3: 9, 16: 23, 10: 28}
 _OTHER_OF_SURFACES = 36
 
 # How far nodes may be from a plane z = const, as a part of the mesh's size: the tolerance of the command-line program.
@@ -31,7 +31,7 @@ def smooth(*, fixed: Any = None, slide: str = "off", **options: Any) -> Result:
 
     Nodes that Gmsh classifies on surfaces move: those inside of them. Nodes on curves and points are held, also where
     these are embedded in a surface, and so are the borders between surfaces. Nodes of elements
-    that are neither triangles nor quadrangles of four nodes are held, too, and nodes that are linked as periodic; a
+    that are neither triangles nor quadrangles, of order 1 or 2, are held, too, and nodes that are linked as periodic; a
     quadrangle that repeats a corner is a triangle. Where they have parametric coordinates on their surface, moved nodes get those of the new place.
 
     With ``slide`` nodes inside of curves slide along the line elements of their curve; nodes on points stay. Nodes that
@@ -163,7 +163,7 @@ def _mesh_of(gmsh: Any, nodes: _Nodes, surfaces: list[_Entity], curves: list[_En
                 entities.append(np.full(len(tags), entity))
     cells = Cells(*map(np.concatenate, (types, sizes, numbers)))
     if (cells.types == _VTK_TYPES[_LINE]).all():
-        raise ValueError("the model has no triangles of order 1 or 2 and no quadrangles: call gmsh.model.mesh.generate(2) first")
+        raise ValueError("the model has no triangles and no quadrangles of order 1 or 2: call gmsh.model.mesh.generate(2) first")
     entity_of = np.concatenate(entities)
     lines = np.flatnonzero(cells.types == _VTK_TYPES[_LINE])
     of_curves = {str(curve.tag): lines[entity_of[lines] == curve.tag] for curve in curves}

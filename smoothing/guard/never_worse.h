@@ -19,7 +19,7 @@ class Halo;
 class Workers;
 
 /// Nodes beside the corners of elements, in the middle of sides or of quadrilaterals: they go with the corners, and an
-/// element that was valid with them and is not any more offends, however good that of its corners is.
+/// element that they spoil offends, however good that of its corners is.
 class FollowingNodes {
  public:
   FollowingNodes() = default;
@@ -29,8 +29,8 @@ class FollowingNodes {
 
   /// The corner has gone back: the nodes that it is a reason for go along.
   virtual void follow(std::int32_t corner) = 0;
-  /// Whether the element with these corners, in any order, was valid and is not any more. `is_turned`: it is turned
-  /// over now. From any thread.
+  /// Whether the element with these corners, in any order, is less valid than it was. `is_turned`: it is turned over
+  /// now. From any thread.
   virtual bool is_spoiled(std::span<const std::int32_t> corners, bool is_turned) const = 0;
 };
 

@@ -343,6 +343,8 @@ TEST_CASE("reports and gates are of the elements of both kinds, and of each alon
   CHECK(std::isnan(gate_value("triangle.min_shape", of_squares)));
   CHECK_FALSE(check_gate(parse_gate("triangle.min_shape>=0"), of_squares).passed);
   CHECK_THROWS_AS(parse_gate("triangle.triangles>=1"), std::invalid_argument);
+  CHECK_THROWS_AS(parse_gate("quadrilateral.min_radius_ratio>=0"), std::invalid_argument);
+  CHECK_THROWS_AS(parse_gate("triangle.max_taper<=1"), std::invalid_argument);
 }
 
 TEST_CASE(

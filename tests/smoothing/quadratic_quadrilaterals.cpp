@@ -183,6 +183,42 @@ TEST_CASE("no quadratic element that was valid becomes invalid, by samples of th
   CHECK(put_back > 0);
 }
 
+TEST_CASE("no element whose Jacobian is 0 in a corner becomes invalid, by samples of the Jacobian") {
+  int lost_without_guard = 0;
+  int seen = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const std::uint64_t thirds = seed % 3 == 0 ? 3 : 0;
+    CurvedMesh mesh = curved(MixedMesh(4, 4, 0.25, seed, thirds), 0, seed, [&](std::size_t) { return seed % 3 == 1; });
+    // Both sides of one corner leave it in one direction.
+    const std::size_t e = thirds == 0 ? 5 : 10;
+    const std::size_t count = mesh.corners.corners(e).size();
+    const ElementNodes& nodes = mesh.elements[e];
+    const std::array<std::size_t, 2> others{1, count - 1};
+    const std::array<std::size_t, 2> middles{count, 2 * count - 1};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double a = mesh.at(nodes[0], axis);
+      const double way = (mesh.at(nodes[1], axis) - a + mesh.at(nodes[count - 1], axis) - a) / 2;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const double other = mesh.at(nodes[others[side]], axis);
+        mesh.xy[2 * static_cast<std::size_t>(nodes[middles[side]]) + axis] = (way + other + 3 * a) / 4;
+      }
+    }
+    if (std::abs(smallest_sample(mesh, mesh.xy, e)) > 1e-12) {
+      continue;  // below 0 elsewhere
+    }
+    ++seen;
+    Numbers guarded = mesh.xy;
+    Numbers loose = mesh.xy;
+    smooth_quadratic(xy_points(guarded), mesh.elements, {}, with(Method::smart));
+    smooth_quadratic(xy_points(loose), mesh.elements, {}, with(Method::smart, false));
+    CAPTURE(seed);
+    CHECK(smallest_sample(mesh, guarded, e) > -1e-5);
+    lost_without_guard += smallest_sample(mesh, loose, e) < -1e-3 ? 1 : 0;
+  }
+  CHECK(seen > 30);
+  CHECK(lost_without_guard > 10);
+}
+
 TEST_CASE("a curved boundary of quadrilaterals keeps its bits") {
   const CurvedMesh mesh = curved(MixedMesh(9, 8, 0.25, 3, 0), 0.05, 3);
   Numbers xy = mesh.xy;
