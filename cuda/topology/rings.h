@@ -39,6 +39,7 @@ struct MixedRingInMemory {
 struct MixedRingsView : RingsView {
   const std::int32_t* opposites;  ///< as OneRings::opposites
 
+  // NOLINTNEXTLINE(bugprone-derived-method-shadowing-base-method): templates ask for rings of either kind by one name.
   TRISMOOTH_HOST_DEVICE MixedRingInMemory ring(std::int32_t vertex) const {
     return {neighbours + offsets[vertex], opposites + offsets[vertex], ring_size(vertex)};
   }

@@ -40,6 +40,7 @@ constexpr auto nastran_elements = std::to_array<NastranElement>({
     {"CPENTA", nastran_wedge, nastran_curved_wedge},
     {"CHEXA", nastran_hexahedron, nastran_curved_hexahedron},
     {"CQUAD", nastran_quad, nastran_full_quad},
+    {"CQUAD9", nastran_quad, nastran_full_quad},  // as Gmsh writes it
     {"CTRIAR", nastran_triangle},
     {"CQUADR", nastran_quad},
     {"CSHEAR", nastran_quad},

@@ -245,11 +245,15 @@ PointView packed_points(std::byte* numbers, std::size_t size, std::size_t compon
                                      : rows(reinterpret_cast<double*>(numbers));
 }
 
+namespace {
+
 /// -1, or of unsigned numbers the largest.
 template <class T>
-static bool is_no_corner(T number) {
+bool is_no_corner(T number) {
   return number == static_cast<T>(no_corner);
 }
+
+}  // namespace
 
 TriangleArray::TriangleArray(const HostArray& array)
     : first_(array.data()), is_wide_(array.item_size() == sizeof(std::int64_t)), is_signed_(array.kind() == 'i') {

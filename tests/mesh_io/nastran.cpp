@@ -210,7 +210,8 @@ TEST_CASE("Nastran: elements of all kinds are cells in the order of their cards,
       "+       7       8       9       10      11      12      13      14\n"
       "+       15      16      17      18      19      20\n"
       "CPENTA  14      1       1       2       3       4       5       6\n"
-      "+       7       8       9       10      11      12      13      14\n+       15\n";
+      "+       7       8       9       10      11      12      13      14\n+       15\n"
+      "CQUAD9  15      1       1       2       3       4       5       6\n+       7       8       9\n";
   const MeshDocument document = bdf.read(nodes + cards);
   const std::vector<std::pair<std::uint8_t, std::vector<std::int32_t>>> expected{
       {cell_type::quadratic_triangle, {0, 1, 2, 3, 4, 5}},
@@ -226,7 +227,8 @@ TEST_CASE("Nastran: elements of all kinds are cells in the order of their cards,
       {cell_type::vertex, {4}},
       {cell_type::poly_vertex, {0, 1, 2, 3, 5}},
       {cell_type::quadratic_hexahedron, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 16, 17, 18, 19, 12, 13, 14, 15}},
-      {cell_type::quadratic_wedge, {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11}}};
+      {cell_type::quadratic_wedge, {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 13, 14, 9, 10, 11}},
+      {cell_type::biquadratic_quad, {0, 1, 2, 3, 4, 5, 6, 7, 8}}};
   REQUIRE(document.cells.size() == expected.size());
   for (std::size_t cell = 0; cell < expected.size(); ++cell) {
     CAPTURE(cell);
@@ -234,7 +236,7 @@ TEST_CASE("Nastran: elements of all kinds are cells in the order of their cards,
     const auto vertices = document.cells[cell];
     CHECK(std::vector<std::int32_t>(vertices.begin(), vertices.end()) == expected[cell].second);
   }
-  CHECK(properties_of(document) == std::vector<std::int64_t>{1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1});
+  CHECK(properties_of(document) == std::vector<std::int64_t>{1, 1, 1, 1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 1});
   CHECK(std::ranges::count_if(document.notes, [](const std::string& note) {
           return note.find("left out of elements 'CTRIA6'") != std::string::npos;
         }) == 1);

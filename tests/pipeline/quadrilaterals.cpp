@@ -499,7 +499,8 @@ TEST_CASE("quadrilaterals of cubic sides are kept, and named") {
   const auto first = static_cast<std::int32_t>(document.point_count());
   std::vector<std::int32_t> sixteen(16);
   for (std::int32_t i = 0; i < 16; ++i) {
-    document.points.insert(document.points.end(), {9.0 + i % 4, static_cast<double>(i / 4), 0});
+    const std::int32_t row = i / 4;
+    document.points.insert(document.points.end(), {9.0 + i % 4, static_cast<double>(row), 0});
     sixteen[static_cast<std::size_t>(i)] = first + i;
   }
   document.cells.append(cell_type::lagrange_quad, sixteen);

@@ -58,7 +58,7 @@ double smallest_sample(const BiquadraticNodes& nodes, std::size_t count = 9) {
   };
   sample(0, 0, 0.5);
   for (double reach = 2.0 / steps; reach > 1e-7; reach /= 8) {
-    const std::vector<Place> around = places;
+    const std::vector<Place> around(places.begin(), places.end());
     for (const Place& place : around) {
       sample(place.u - reach, place.v - reach, reach);
     }

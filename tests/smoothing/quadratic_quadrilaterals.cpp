@@ -224,9 +224,9 @@ TEST_CASE("a curved boundary of quadrilaterals keeps its bits") {
   Numbers xy = mesh.xy;
   CHECK(smooth_quadratic(xy_points(xy), mesh.elements).moved_vertices > 20);
   std::map<std::int32_t, int> uses;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+  for (const ElementNodes& nodes : mesh.elements) {
     for (std::size_t i = 4; i < 8; ++i) {
-      ++uses[mesh.elements[e][i]];
+      ++uses[nodes[i]];
     }
   }
   int on_boundary = 0;
