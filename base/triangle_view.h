@@ -36,7 +36,9 @@ constexpr MixedElement as_mixed(const Triangle& triangle) {
   return {triangle[0], triangle[1], triangle[2], no_corner};
 }
 /// An element that is listed so already.
-constexpr MixedElement as_mixed(const MixedElement& element) {
+template <std::size_t most>
+constexpr MixedElement as_mixed(const std::array<std::int32_t, most>& element) {
+  static_assert(most == 4);
   return element;
 }
 
