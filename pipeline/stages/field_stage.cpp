@@ -84,21 +84,24 @@ class FieldTriangles {
 
   /// Around a centre the four quarters; else what is at each corner, and what the middles enclose.
   void add_quadratic(std::span<const std::int32_t> corners, const QuadraticElement& quadratic) {
-    const std::size_t sides = corners.size();
-    const auto& middles = quadratic.middles;
-    const bool has_centre = sides == 4 && quadratic.centre() != no_corner;
-    for (std::size_t i = 0; i < sides; ++i) {
-      const std::int32_t before = middles[(i + sides - 1) % sides];
-      if (has_centre) {
-        add_quad({corners[i], middles[i], quadratic.centre(), before});
-      } else {
-        parts_.push_back({corners[i], middles[i], before});
-      }
+    const auto [ab, bc, cd, da, centre] = quadratic.middles;
+    const std::int32_t a = corners[0];
+    const std::int32_t b = corners[1];
+    const std::int32_t c = corners[2];
+    if (corners.size() == 3) {
+      const std::int32_t ca = cd;
+      parts_.insert(parts_.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+      return;
     }
-    if (sides == 3) {
-      parts_.push_back({middles[0], middles[1], middles[2]});
-    } else if (!has_centre) {
-      add_quad({middles[0], middles[1], middles[2], middles[3]});
+    const std::int32_t d = corners[3];
+    if (centre != no_corner) {
+      for (const MixedElement& quarter : {MixedElement{a, ab, centre, da}, MixedElement{ab, b, bc, centre},
+                                          MixedElement{centre, bc, c, cd}, MixedElement{da, centre, cd, d}}) {
+        add_quad(quarter);
+      }
+    } else {
+      parts_.insert(parts_.end(), {{a, ab, da}, {ab, b, bc}, {bc, c, cd}, {da, cd, d}});
+      add_quad({ab, bc, cd, da});
     }
   }
 
