@@ -11,6 +11,8 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/repeated_triangles.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/quadratic_quadrilateral.h"
+#include "trismooth/quality/quadratic_triangle.h"
 #include "trismooth/quality/quadrilateral_quality.h"
 #include "trismooth/quality/quality.h"
 #include "trismooth/quality/quality_report.h"
