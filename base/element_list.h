@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <iterator>
 #include <span>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "trismooth/base/point2.h"
@@ -97,6 +99,31 @@ inline ElementList::Iterator ElementList::begin() const {
 inline ElementList::Iterator ElementList::end() const {
   return {*this, size()};
 }
+
+/// The elements of a mesh in memory of its own, listed all as Triangle or all as MixedElement.
+class OwnElements {
+ public:
+  /// None.
+  OwnElements() = default;
+  /// These triangles.
+  OwnElements(std::vector<Triangle> triangles) : listed_(std::move(triangles)) {}
+  /// These elements of either kind.
+  OwnElements(std::vector<MixedElement> elements) : listed_(std::move(elements)) {}
+  /// A copy of what is listed, as it is listed. Complexity: linear.
+  explicit OwnElements(const ElementList& elements) {
+    elements.visit([this]<class Corners>(std::span<const Corners> listed) {
+      listed_.template emplace<std::vector<Corners>>(listed.begin(), listed.end());
+    });
+  }
+
+  /// They, while this is there and stays as it is.
+  [[nodiscard]] ElementList list() const {
+    return std::visit([](const auto& listed) { return ElementList(listed); }, listed_);
+  }
+
+ private:
+  std::variant<std::vector<Triangle>, std::vector<MixedElement>> listed_;
+};
 
 /// The corner behind corner i of an element, in turn.
 inline std::int32_t next_corner(std::span<const std::int32_t> corners, std::size_t i) {

@@ -80,4 +80,10 @@ std::span<const MixedElement> IndexView::elements(std::int64_t vertex_count,
   return listed(vertex_count, converted);
 }
 
+OwnElements own_elements(const IndexView& indices, std::int64_t vertex_count) {
+  return with_elements(indices, vertex_count, [](const auto& listed, auto& converted) {
+    return listed.data() == converted.data() ? OwnElements(std::move(converted)) : OwnElements(ElementList(listed));
+  });
+}
+
 }  // namespace trismooth

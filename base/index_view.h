@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trismooth/base/array_layout.h"
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/triangle_view.h"
 
 namespace trismooth {
@@ -74,6 +75,10 @@ class IndexView {
     check();
   }
 
+  /// What is listed.
+  explicit IndexView(const ElementList& elements)
+      : IndexView(elements.visit([](const auto& listed) { return IndexView(listed); })) {}
+
   /// Elements.
   [[nodiscard]] std::size_t size() const { return size_; }
   /// Whether there are four numbers of each, so that some may be quadrilaterals.
@@ -118,6 +123,9 @@ auto with_elements(const IndexView& indices, std::int64_t vertex_count, const Bo
   std::vector<Triangle> converted;
   return body(indices.triangles(vertex_count, converted), converted);
 }
+
+/// A copy of the elements. Throws as with_elements(). Complexity: linear.
+OwnElements own_elements(const IndexView& indices, std::int64_t vertex_count);
 
 /// An Eigen matrix of indices with an element a row (libigl's F), where its type does not tell (MatrixXi). Throws
 /// std::invalid_argument unless rows have three numbers or four.

@@ -31,6 +31,11 @@ constexpr std::size_t node_count(const ElementNodes& nodes) {
   return count;
 }
 
+/// How many corners an element of so many nodes has: 3 or 4. 0: there is no such element.
+constexpr std::size_t corners_of_nodes(std::size_t nodes) {
+  return nodes == 3 || nodes == 6 ? 3 : nodes == 4 || nodes == 8 || nodes == 9 ? 4 : 0;
+}
+
 /// A triangle among elements of both kinds.
 constexpr MixedElement as_mixed(const Triangle& triangle) {
   return {triangle[0], triangle[1], triangle[2], no_corner};

@@ -68,9 +68,7 @@ SmoothingResult smooth_host_points(const Context& context, HostCopier& copier, D
 
 class RingSmoother final : public PreparedSmoother {
  public:
-  /// Of triangles, or of MixedElements.
-  template <class Corners>
-  RingSmoother(const MeshRings& mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
+  RingSmoother(const MeshRings& mesh, const ElementList& elements, std::span<const Point2<double>> local,
                const SmoothingOptions& options)
       : copier_(context_, options.threads),
         stored_(context_, with_room_for(mesh.rings, options, local.size())),
@@ -248,49 +246,37 @@ class CudaBackend final : public Backend {
     require_device();
   }
 
-  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, const ElementList& elements,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
-    return prepare_kept(mesh, triangles, local, options);
+    return prepare_kept(mesh, elements, local, options);
   }
 
-  std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, std::span<const Triangle> triangles,
+  bool takes_quadrilaterals() const override { return true; }
+
+  std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, const ElementList& elements,
                                                  std::span<const Point2<double>> local,
                                                  const SmoothingOptions& options) const override {
     options.validate();
+    if (!elements.are_triangles() && options.execution != Execution::resident) {
+      throw std::invalid_argument("execution '" + std::string(to_string(options.execution)) +
+                                  "' smooths triangles alone: quadrilaterals by execution 'resident'");
+    }
     const DeviceScope scope(device_);
     require_device();
     if (mesh.part != nullptr && mesh.part->is_whole) {
       // Colours are by the ids of the whole mesh, which the device's own are not.
-      return cpu_backend().prepare(mesh, triangles, local, options);
+      return cpu_backend().prepare(mesh, elements, local, options);
     }
     if (mesh.part != nullptr) {
-      return prepare_part(mesh, triangles, local, options,
+      return prepare_part(mesh, elements.triangles(), local, options,
                           device_ ? part_offloads_on(*device_) : part_offloads(*mesh.part));
     }
     if (mesh.slidable.is_wanted()) {
       require_sliding(options);
     }
     if (slides_on_host(mesh, options)) {
-      return cpu_backend().prepare(mesh, triangles, local, options);
-    }
-    return on_device(std::make_unique<RingSmoother>(mesh, triangles, local, options));
-  }
-
-  bool takes_quadrilaterals() const override { return true; }
-
-  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
-                                                  std::span<const Point2<double>> local,
-                                                  const SmoothingOptions& options) const override {
-    options.validate();
-    if (options.execution != Execution::resident) {
-      throw std::invalid_argument("execution '" + std::string(to_string(options.execution)) +
-                                  "' smooths triangles alone: quadrilaterals by execution 'resident'");
-    }
-    const DeviceScope scope(device_);
-    require_device();
-    if (slides_on_host(mesh, options)) {
-      return cpu_backend().prepare_mixed(std::move(mesh), elements, local, options);
+      return cpu_backend().prepare(mesh, elements, local, options);
     }
     return on_device(std::make_unique<RingSmoother>(mesh, elements, local, options));
   }

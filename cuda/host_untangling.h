@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "trismooth/base/element_list.h"
@@ -38,10 +37,8 @@ class HostUntangling {
                                const LocalFrame& frame) const;
 
  private:
-  ElementList elements() const;
-
   std::vector<std::uint8_t> fixed_;
-  std::variant<std::vector<Triangle>, std::vector<MixedElement>> listed_;
+  OwnElements elements_;
   SmoothingOptions options_;
   Slidable slidable_;
   std::vector<Point2<double>> reference_;  ///< what is aimed at; empty: the points of each call

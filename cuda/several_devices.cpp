@@ -73,10 +73,13 @@ class SeveralDevices final : public Backend {
       backend().require_ready();
     }
   }
-  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, const ElementList& elements,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
     options.validate();
+    if (!elements.are_triangles()) {
+      throw std::invalid_argument("several devices smooth triangles alone: quadrilaterals on one device");
+    }
     if (options.order == Order::unordered || options.execution != Execution::resident) {
       throw std::invalid_argument("executions and orders of the paper's CUDA versions are for one device");
     }
@@ -85,18 +88,14 @@ class SeveralDevices final : public Backend {
     }
     if (mesh.slidable.is_wanted()) {
       return std::make_unique<NotedSmoother>(
-          backend_on(std::span(devices_).first(1))->prepare_kept(mesh, triangles, local, options),
+          backend_on(std::span(devices_).first(1))->prepare_kept(mesh, elements, local, options),
           "vertices slide on one device, not on several");
     }
     require_ready();
-    return std::make_unique<SharedSmoother>(std::move(mesh), triangles, local, options, devices_);
+    return std::make_unique<SharedSmoother>(std::move(mesh), elements.triangles(), local, options, devices_);
   }
 
-  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings /*mesh*/, std::span<const MixedElement> /*elements*/,
-                                                  std::span<const Point2<double>> /*local*/,
-                                                  const SmoothingOptions& /*options*/) const override {
-    throw std::invalid_argument("several devices smooth triangles alone: quadrilaterals on one device");
-  }
+  bool takes_quadrilaterals() const override { return false; }
 
  private:
   Devices devices_;

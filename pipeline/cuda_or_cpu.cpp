@@ -11,7 +11,6 @@
 #include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/machine/stopwatch.h"
-#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/noted_smoother.h"
 
@@ -25,34 +24,18 @@ std::string failure_note(const DeviceError& error) {
   return "CUDA failed: " + (what.starts_with(prefix) ? what.substr(prefix.size()) : what);
 }
 
-/// prepared() for a caller who keeps the mesh.
-std::unique_ptr<PreparedSmoother> prepared_kept(const Backend& backend, const MeshRings& mesh,
-                                                std::span<const Triangle> triangles,
-                                                std::span<const Point2<double>> local,
-                                                const SmoothingOptions& options) {
-  return backend.prepare_kept(mesh, triangles, local, options);
-}
-std::unique_ptr<PreparedSmoother> prepared_kept(const Backend& backend, const MeshRings& mesh,
-                                                std::span<const MixedElement> elements,
-                                                std::span<const Point2<double>> local,
-                                                const SmoothingOptions& options) {
-  return backend.prepare_mixed(mesh, elements, local, options);
-}
-
-/// The device's smoother until it fails, the CPU's from then on. `Corners`: Triangle, or MixedElement where there are
-/// quadrilaterals.
-template <class Corners>
+/// The device's smoother until it fails, the CPU's from then on.
 class FallingBackSmoother final : public PreparedSmoother {
  public:
   FallingBackSmoother(std::unique_ptr<PreparedSmoother> device, double device_start_ms, const Backend& cpu,
-                      MeshRings mesh, std::span<const Corners> elements, const SmoothingOptions& options)
+                      MeshRings mesh, const ElementList& elements, const SmoothingOptions& options)
       : smoother_(std::move(device)),
         device_start_ms_(device_start_ms),
         cpu_(cpu),
         mesh_(std::move(mesh)),
         options_(options) {
     if (options.measures_shape()) {
-      elements_.assign(elements.begin(), elements.end());
+      elements_ = OwnElements(elements);
     }
   }
 
@@ -88,8 +71,7 @@ class FallingBackSmoother final : public PreparedSmoother {
   void fall_back(const LocalFrame& frame, std::span<const Point2<double>> points, std::string note) {
     const LocalPoints local = entered(frame, points);
     smoother_ = std::make_unique<NotedSmoother>(
-        prepared(cpu_, std::exchange(mesh_, {}), std::span<const Corners>(elements_), local.points, options_),
-        std::move(note));
+        cpu_.prepare(std::exchange(mesh_, {}), elements_.list(), local.points, options_), std::move(note));
     elements_ = {};
     fell_back_ = true;
   }
@@ -98,7 +80,7 @@ class FallingBackSmoother final : public PreparedSmoother {
   double device_start_ms_;
   const Backend& cpu_;
   MeshRings mesh_;
-  std::vector<Corners> elements_;  ///< where they are needed
+  OwnElements elements_;  ///< where they are needed
   SmoothingOptions options_;
   bool fell_back_ = false;
 };
@@ -121,12 +103,11 @@ void CudaOrCpu::start(std::int64_t vertices) const {
   }
 }
 
-template <class Corners>
-std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare_by_size(MeshRings mesh, std::span<const Corners> elements,
-                                                             std::span<const Point2<double>> local,
-                                                             const SmoothingOptions& options) const {
+std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(MeshRings mesh, const ElementList& elements,
+                                                     std::span<const Point2<double>> local,
+                                                     const SmoothingOptions& options) const {
   if (!is_large(count_free(mesh.rings, options.threads))) {
-    return prepared(cpu_, std::move(mesh), elements, local, options);
+    return cpu_.prepare(std::move(mesh), elements, local, options);
   }
   // The first to ask starts CUDA, which can take longer than the smoothing.
   const Stopwatch watch;
@@ -134,28 +115,15 @@ std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare_by_size(MeshRings mesh, std
   const double start_ms = watch.milliseconds();
   if (note.empty()) {
     try {
-      return std::make_unique<FallingBackSmoother<Corners>>(
-          prepared_kept(*cuda_.backend, mesh, elements, local, options), start_ms, cpu_, std::move(mesh), elements,
-          options);
+      return std::make_unique<FallingBackSmoother>(cuda_.backend->prepare_kept(mesh, elements, local, options),
+                                                   start_ms, cpu_, std::move(mesh), elements, options);
     } catch (const DeviceError& error) {
       note = failure_note(error);
     }
   } else {
     note.insert(0, "no CUDA device: ");
   }
-  return std::make_unique<NotedSmoother>(prepared(cpu_, std::move(mesh), elements, local, options), note);
-}
-
-std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare(MeshRings mesh, std::span<const Triangle> triangles,
-                                                     std::span<const Point2<double>> local,
-                                                     const SmoothingOptions& options) const {
-  return prepare_by_size(std::move(mesh), triangles, local, options);
-}
-
-std::unique_ptr<PreparedSmoother> CudaOrCpu::prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
-                                                           std::span<const Point2<double>> local,
-                                                           const SmoothingOptions& options) const {
-  return prepare_by_size(std::move(mesh), elements, local, options);
+  return std::make_unique<NotedSmoother>(cpu_.prepare(std::move(mesh), elements, local, options), note);
 }
 
 std::optional<MeshRings> CudaOrCpu::find_rings(std::span<const Point2<double>> local,

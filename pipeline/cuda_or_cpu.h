@@ -25,14 +25,11 @@ class CudaOrCpu final : public Backend {
   /// Starts CUDA's default device for a large mesh.
   void start(std::int64_t vertices) const override;
 
-  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, const ElementList& elements,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override;
 
   bool takes_quadrilaterals() const override { return true; }
-  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
-                                                  std::span<const Point2<double>> local,
-                                                  const SmoothingOptions& options) const override;
 
   /// Before the rings are found, the vertices count as free. Where CUDA fails, the rings found by the host have the
   /// note of it.
@@ -40,11 +37,6 @@ class CudaOrCpu final : public Backend {
                                       const Constraints& constraints, const SmoothingOptions& options) const override;
 
  private:
-  /// Of triangles or of MixedElements, by whoever the mesh is large enough for.
-  template <class Corners>
-  std::unique_ptr<PreparedSmoother> prepare_by_size(MeshRings mesh, std::span<const Corners> elements,
-                                                    std::span<const Point2<double>> local,
-                                                    const SmoothingOptions& options) const;
   bool is_large(std::int64_t vertices) const { return cuda_.backend != nullptr && vertices >= free_vertices_; }
 
   CudaSupport cuda_;

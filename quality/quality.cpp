@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "trismooth/base/heights.h"
@@ -139,28 +138,21 @@ class MeshQuality::Implementation {
     Workers workers(threads);
     require_mesh_size(vertex_count, triangles);
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
-    with_elements(triangles, vertex_count, [&](const auto& listed, auto& converted) {
-      topology_ = connect_triangles(vertex_count_, listed, workers);
-      if (listed.data() != converted.data()) {
-        converted.assign(listed.begin(), listed.end());
-      }
-      elements_ = std::move(converted);
-    });
+    elements_ = own_elements(triangles, vertex_count);
+    topology_ =
+        elements_.list().visit([&](const auto& listed) { return connect_triangles(vertex_count_, listed, workers); });
   }
 
   QualityReport report(const ConstPointView& points, const QualityOptions& options) const {
     require_a_point_a_vertex(points.size(), points.components(), vertex_count_);
     Workers workers(options.threads);
-    return std::visit(
-        [&]<class Corners>(const std::vector<Corners>& elements) {
-          return report_of(std::span<const Corners>(elements), topology_, points, {}, options, workers);
-        },
-        elements_);
+    return elements_.list().visit(
+        [&](const auto& elements) { return report_of(elements, topology_, points, {}, options, workers); });
   }
 
  private:
   std::int32_t vertex_count_ = 0;
-  std::variant<std::vector<Triangle>, std::vector<MixedElement>> elements_;
+  OwnElements elements_;
   TriangleTopology topology_;
 };
 

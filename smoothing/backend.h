@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/local_frame.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
@@ -75,31 +76,22 @@ class Backend {
   virtual void start(std::int64_t /*vertices*/) const {}
 
   /// Makes a mesh ready whose rings are known: renumbering, colouring, whatever the backend needs. `mesh`:
-  /// moved here, its memory is released as soon as it can be. `triangles` are those of the mesh; they are looked at
+  /// moved here, its memory is released as soon as it can be. `elements` are those of the mesh; they are looked at
   /// only where options.measures_shape() or options.untangles(). `local` are the vertices in the local frame; they
-  /// steer the order in memory and no result. Throws std::invalid_argument for options that the backend does not have.
-  virtual std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
+  /// steer the order in memory and no result. Throws std::invalid_argument for options that the backend does not have,
+  /// and for elements that are not listed as triangles where it smooths triangles alone.
+  virtual std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, const ElementList& elements,
                                                     std::span<const Point2<double>> local,
                                                     const SmoothingOptions& options) const = 0;
 
-  /// Whether it has prepare_mixed().
-  virtual bool takes_quadrilaterals() const { return false; }
-
-  /// prepare() of a mesh with quadrilaterals, for whole meshes. Throws std::invalid_argument where the backend smooths
-  /// triangles alone.
-  // NOLINTNEXTLINE(performance-unnecessary-value-param): who overrides it takes the mesh.
-  virtual std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings /*mesh*/,
-                                                          std::span<const MixedElement> /*elements*/,
-                                                          std::span<const Point2<double>> /*local*/,
-                                                          const SmoothingOptions& /*options*/) const {
-    throw std::invalid_argument("backend '" + name() + "' smooths triangles alone: quadrilaterals by backend 'cpu'");
-  }
+  /// Whether it smooths quadrilaterals; else triangles alone.
+  virtual bool takes_quadrilaterals() const = 0;
 
   /// prepare() for a caller who keeps the mesh. It is copied where the backend has no other way.
-  virtual std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, std::span<const Triangle> triangles,
+  virtual std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, const ElementList& elements,
                                                          std::span<const Point2<double>> local,
                                                          const SmoothingOptions& options) const {
-    return prepare(mesh, triangles, local, options);
+    return prepare(mesh, elements, local, options);
   }
 
   /// Finds the rings of a mesh with the backend's own means: what find_mesh_rings() finds, in every number, with the

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/smoothing/backend_choice.h"
 
-#include <concepts>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -18,17 +17,6 @@ const Backend& backend_of(const SmoothingOptions& options) {
     throw std::invalid_argument("a proposal is a function of the host: the CPU backend alone takes it");
   }
   return backend;
-}
-
-std::unique_ptr<PreparedSmoother> prepared(const Backend& backend, MeshRings mesh, const ElementList& elements,
-                                           std::span<const Point2<double>> local, const SmoothingOptions& options) {
-  return elements.visit([&]<class Corners>(std::span<const Corners> listed) {
-    if constexpr (std::same_as<Corners, Triangle>) {
-      return backend.prepare(std::move(mesh), listed, local, options);
-    } else {
-      return backend.prepare_mixed(std::move(mesh), listed, local, options);
-    }
-  });
 }
 
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local, const ElementList& elements,

@@ -21,11 +21,6 @@ namespace trismooth {
 /// there is a proposal.
 const Backend& backend_of(const SmoothingOptions& options);
 
-/// The mesh as a backend makes it ready: Backend::prepare(), or where the elements are not listed as triangles
-/// Backend::prepare_mixed(), whose arguments and errors these are.
-std::unique_ptr<PreparedSmoother> prepared(const Backend& backend, MeshRings mesh, const ElementList& elements,
-                                           std::span<const Point2<double>> local, const SmoothingOptions& options);
-
 /// The rings of a mesh as the options want them found: by their backend where they prefer that and it finds rings (of
 /// triangles alone), else by `on_host`, which finds what find_mesh_rings() finds. The same numbers either way. `local`
 /// are the points in the local frame. Throws DeviceError where the backend does and the options say Topology::device.

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "trismooth/base/element_list.h"
@@ -49,9 +48,8 @@ constexpr const char* untangling_over_parts =
 
 class CpuSmoother final : public PreparedSmoother {
  public:
-  /// Of triangles, or of MixedElements: no part of another mesh then.
-  template <class Corners>
-  CpuSmoother(MeshRings mesh, std::span<const Corners> elements, std::span<const Point2<double>> local,
+  /// Where elements are not listed as triangles the mesh is no part of another one.
+  CpuSmoother(MeshRings mesh, const ElementList& elements, std::span<const Point2<double>> local,
               const SmoothingOptions& options, std::unique_ptr<SweepOffloads> offloads)
       : options_(options),
         offloads_(std::move(offloads)),
@@ -79,7 +77,7 @@ class CpuSmoother final : public PreparedSmoother {
       slidable_ = PackedSlidable(std::move(mesh.slidable), reversed, std::move(numbers));
     }
     if (options.untangles()) {
-      elements_.emplace<std::vector<Corners>>(elements.begin(), elements.end());
+      elements_ = OwnElements(elements);
       reversed_ = std::move(mesh.reversed);
     }
     prepare_ms_ = watch.milliseconds();
@@ -306,8 +304,8 @@ class CpuSmoother final : public PreparedSmoother {
     if (run.slide) {
       guard_with_lines(run, held);
     } else if (options_.guard && run.turned) {
-      list(run, keep_never_worse(rings.view(), elements(), reversed_, run.turned->components, run.before, run.after,
-                                 workers_));
+      list(run, keep_never_worse(rings.view(), elements_.list(), reversed_, run.turned->components, run.before,
+                                 run.after, workers_));
     } else if (options_.guard) {
       list(run, keep_never_worse(rings.view(), run.before, run.after, workers_));
     }
@@ -386,13 +384,12 @@ class CpuSmoother final : public PreparedSmoother {
   }
 
   FixedElements fixed_elements(const TurnedComponents& turned) {
-    return elements().visit(
-        [&](const auto& listed) { return FixedElements(listed, turned_over(reversed_, turned), fixed_, workers_); });
+    return {elements_.list(), turned_over(reversed_, turned), fixed_, workers_};
   }
 
   Turned turn(TurnedComponents components) {
     Turned turned{std::move(components), rings_, {}};
-    TurnedRings rings = turned_rings(rings_.view(), elements(), turned.components);
+    TurnedRings rings = turned_rings(rings_.view(), elements_.list(), turned.components);
     turned.rings.neighbours = std::move(rings.neighbours);
     turned.rings.opposites = std::move(rings.opposites);
     turned.fixed_elements = fixed_elements(turned.components);
@@ -405,8 +402,9 @@ class CpuSmoother final : public PreparedSmoother {
                       UntanglingResult& result) {
     // The guard lets nothing that was valid become inverted.
     result.inverted_after = options_.guard && result.inverted_before == 0 ? 0
-                            : halo() != nullptr ? sum_of_parts(halo(), inverted_elements_of_part(rings_, after))
-                                                : inverted_elements(rings_.view(), elements(), turned, after, workers_);
+                            : halo() != nullptr
+                                ? sum_of_parts(halo(), inverted_elements_of_part(rings_, after))
+                                : inverted_elements(rings_.view(), elements_.list(), turned, after, workers_);
     result.inverted_fixed =
         sum_of_parts(halo(), (turned.any() ? fixed_elements(turned) : fixed_elements_).inverted(input));
     result.turned_components = turned.count;
@@ -435,7 +433,7 @@ class CpuSmoother final : public PreparedSmoother {
       if (CallLimit* const limit = CallLimit::current(); limit != nullptr && !limit->is_lifted()) {
         sooner.emplace(options_.time_limit_seconds - guard_takes, *limit);
       }
-      done = untangle_mesh(rings_.view(), elements(), reversed_, untangled, workers_);
+      done = untangle_mesh(rings_.view(), elements_.list(), reversed_, untangled, workers_);
     }
     if (CallLimit* const limit = CallLimit::current()) {
       limit->lift();  // what is untangled is kept
@@ -449,10 +447,6 @@ class CpuSmoother final : public PreparedSmoother {
   template <class T>
   static Point2<T> narrow(Point2<double> point) {
     return {static_cast<T>(point.x), static_cast<T>(point.y)};
-  }
-
-  ElementList elements() const {
-    return std::visit([](const auto& listed) { return ElementList(listed); }, elements_);
   }
 
   /// Null: the sweeps are made here.
@@ -505,9 +499,8 @@ class CpuSmoother final : public PreparedSmoother {
   std::unique_ptr<SweepOffload<float>> in_single_;  ///< one of these, where sweeps are made elsewhere
   std::unique_ptr<SweepOffload<double>> in_double_;
   PackedSlidable slidable_;
-  FixedElements fixed_elements_;  ///< where they are asked for
-  std::variant<std::vector<Triangle>, std::vector<MixedElement>>
-      elements_;                                                ///< of the mesh, where it may have to be untangled
+  FixedElements fixed_elements_;                                ///< where they are asked for
+  OwnElements elements_;                                        ///< of the mesh, where it may have to be untangled
   std::vector<std::uint8_t> reversed_;                          ///< as MeshRings::reversed, likewise
   std::vector<double> inverse_sizes_;                           ///< that are asked for, in a call; empty: none
   std::optional<ReferenceTargets<float>> in_single_reference_;  ///< see aim_at(); one of these at most
@@ -521,21 +514,14 @@ class CpuBackend final : public Backend {
  public:
   std::string name() const override { return "cpu"; }
 
-  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, const ElementList& elements,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
     require_available(options, mesh);
-    return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, nullptr);
+    return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, options, nullptr);
   }
 
   bool takes_quadrilaterals() const override { return true; }
-
-  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
-                                                  std::span<const Point2<double>> local,
-                                                  const SmoothingOptions& options) const override {
-    require_available(options, mesh);
-    return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, options, nullptr);
-  }
 
  private:
   static void require_available(const SmoothingOptions& options, const MeshRings& mesh) {

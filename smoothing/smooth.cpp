@@ -124,8 +124,7 @@ class SmoothingPlan::Implementation {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
       // it.
       smoother_.reset();
-      smoother_ =
-          prepared(backend_of(options_), mesh_->with_rings(elements, workers_), elements, local.points, options_);
+      smoother_ = backend_of(options_).prepare(mesh_->with_rings(elements, workers_), elements, local.points, options_);
     }
     patient.reset();
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);

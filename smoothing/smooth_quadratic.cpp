@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "trismooth/base/errors.h"
@@ -30,15 +29,8 @@ constexpr std::size_t nodes_of_triangle = 6;
 
 /// The elements by their corners, and the middles of those that have such.
 struct ListedElements {
-  std::variant<std::vector<Triangle>, std::vector<MixedElement>> corners;
+  OwnElements corners;
   std::vector<QuadraticElement> quadratics;
-
-  ElementList elements() const {
-    return std::visit([](const auto& listed) { return ElementList(listed); }, corners);
-  }
-  IndexView indices() const {
-    return std::visit([](const auto& listed) { return IndexView(listed); }, corners);
-  }
 };
 
 /// Looks at an element's vertices before they are taken, and from time to time at the limit.
@@ -61,7 +53,7 @@ ListedElements listed_triangles(std::span<const std::int32_t> nodes, std::int64_
   const std::size_t count = nodes.size() / nodes_of_triangle;
   check_mesh_size(vertex_count, static_cast<std::int64_t>(count));
   ListedElements listed;
-  auto& corners = listed.corners.emplace<std::vector<Triangle>>();
+  std::vector<Triangle> corners;
   corners.reserve(count);
   listed.quadratics.reserve(count);
   for (std::size_t t = 0; t < count; ++t) {
@@ -71,33 +63,19 @@ ListedElements listed_triangles(std::span<const std::int32_t> nodes, std::int64_
     listed.quadratics.push_back(
         {static_cast<std::int32_t>(t), {of_triangle[3], of_triangle[4], of_triangle[5], no_corner, no_corner}});
   }
+  listed.corners = std::move(corners);
   return listed;
-}
-
-/// Of an element of so many nodes; 0: there is none.
-std::size_t corners_of(std::size_t nodes) {
-  switch (nodes) {
-    case 3:
-    case 6:
-      return 3;
-    case 4:
-    case 8:
-    case 9:
-      return 4;
-    default:
-      return 0;
-  }
 }
 
 ListedElements listed_elements(std::span<const ElementNodes> elements, std::int64_t vertex_count) {
   check_mesh_size(vertex_count, std::ssize(elements));
   ListedElements listed;
-  auto& all = listed.corners.emplace<std::vector<MixedElement>>();
+  std::vector<MixedElement> all;
   all.reserve(elements.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const ElementNodes& row = elements[e];
     const auto nodes = std::span(row).first(node_count(row));
-    const std::size_t corners = corners_of(nodes.size());
+    const std::size_t corners = corners_of_nodes(nodes.size());
     if (corners == 0 ||
         std::any_of(row.begin() + std::ssize(nodes), row.end(), [](auto v) { return v != no_corner; })) {
       throw MeshError("element " + std::to_string(e) + " has " + std::to_string(nodes.size()) +
@@ -112,6 +90,7 @@ ListedElements listed_elements(std::span<const ElementNodes> elements, std::int6
       listed.quadratics.push_back(quadratic);
     }
   }
+  listed.corners = std::move(all);
   return listed;
 }
 
@@ -143,7 +122,7 @@ LocalPoints local_nodes(std::span<const Point2<double>> nodes, const ElementList
 SmoothingResult smooth_nodes(const PointView& points, const ListedElements& listed, const Constraints& constraints,
                              const SmoothingOptions& options) {
   Workers workers(options.threads);
-  const ElementList elements = listed.elements();
+  const ElementList elements = listed.corners.list();
   check_constraints(constraints, static_cast<std::int32_t>(points.size()), static_cast<std::int64_t>(elements.size()));
   if (constraints.slide.along != Slide::off) {
     throw std::invalid_argument(
@@ -166,7 +145,7 @@ SmoothingResult smooth_nodes(const PointView& points, const ListedElements& list
   SmoothingOptions of_sweeps = options;
   // What has been untangled needs the guard that knows what the sweeps began with, too.
   of_sweeps.guard = options.guard && options.untangles();
-  SmoothingPlan of_corners(std::ssize(nodes), listed.indices(), settled, of_sweeps);
+  SmoothingPlan of_corners(std::ssize(nodes), IndexView(elements), settled, of_sweeps);
   if (points.components() == 3) {
     require_one_height(points, nodes, [&of_corners] { return of_corners.fixed(); });
   }

@@ -33,7 +33,7 @@ SmoothingResult smooth_in_image(MeshRings& mesh, const ElementList& elements,
   // What has been untangled needs the guard that knows what the sweeps began with, too.
   in_image.guard = options.guard && options.untangles();
   // The commit asks for the rings once more.
-  const auto smoother = prepared(backend_of(options), mesh, elements, local.points, in_image);
+  const auto smoother = backend_of(options).prepare(mesh, elements, local.points, in_image);
   BulkVector<Point2<double>> moved = points;
   SmoothingResult result = smoother->smooth(moved, swept, local.frame);
   Workers workers(options.threads);
@@ -49,7 +49,7 @@ SmoothingResult smooth_in_plane(MeshRings& mesh, const ElementList& elements, co
     return smooth_in_image(mesh, elements, {}, {}, image_of(plane, storage), xyz, points, local, Storage::float64,
                            options);
   }
-  const auto smoother = prepared(backend_of(options), with_rings_of(mesh), elements, local.points, options);
+  const auto smoother = backend_of(options).prepare(with_rings_of(mesh), elements, local.points, options);
   SmoothingResult result = smoother->smooth(points, storage, local.frame);
   Workers(options.threads).for_blocks(std::ssize(points), space_grain, [&](std::int64_t begin, std::int64_t end) {
     for (auto v = static_cast<std::size_t>(begin); v < static_cast<std::size_t>(end); ++v) {

@@ -20,7 +20,7 @@ namespace trismooth {
 /// most memory of all, are gone afterwards. `xyz` are the stored
 /// coordinates (three of every vertex), changed in place and rounded to `storage`; `points` are plane.project() of them
 /// and get the projections of the result. `local` are `points` in the local frame of those that cells use. Everything
-/// else as prepared() (smoothing/backend_choice.h) and PreparedSmoother::smooth(). In a tilted plane the guard judges
+/// else as Backend::prepare() and PreparedSmoother::smooth(). In a tilted plane the guard judges
 /// the projections of what is stored, since storing rounds in space.
 SmoothingResult smooth_in_plane(MeshRings& mesh, const ElementList& elements, const Plane& plane, std::span<double> xyz,
                                 BulkVector<Point2<double>>& points, const LocalPoints& local, Storage storage,

@@ -8,7 +8,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "trismooth/base/element_list.h"
@@ -36,7 +35,7 @@ struct ElementCells {
   /// In the document's order, each in the document's vertex order; listed as triangles where all are. They are the
   /// document's own connectivity where it has nothing but triangles, or nothing but quadrilaterals, else `listed`.
   ElementList elements;
-  std::variant<std::vector<Triangle>, std::vector<MixedElement>> listed;
+  OwnElements listed;
   BulkVector<std::int32_t> cells;            ///< the document's cell of each element, ascending; a strip has several
   std::vector<CellCopy> copies;              ///< the cells that are these elements again: see take_out_copies()
   std::vector<QuadraticElement> quadratics;  ///< those of six, eight and nine nodes
@@ -54,7 +53,8 @@ struct ElementCells {
   /// Makes these the elements.
   template <class Corners>
   void list(std::vector<Corners> own) {
-    elements = listed.emplace<std::vector<Corners>>(std::move(own));
+    listed = std::move(own);
+    elements = listed.list();
   }
   /// How many of the elements are quadrilaterals. Complexity: linear.
   std::int64_t count_quadrilaterals() const;

@@ -135,13 +135,17 @@ class RankBackend final : public Backend {
 
   std::string name() const override { return (of_rank_ != nullptr ? *of_rank_ : cpu_backend()).name(); }
 
-  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, std::span<const Triangle> triangles,
+  std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, const ElementList& elements,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
+    const std::span<const Triangle> triangles = elements.triangles();
     const bool slides = mesh.slidable.is_wanted();
-    if (slides || (options.untangles() && has_broken_triangles(triangles, mesh.reversed, local))) {
-      return alone(cpu_backend().prepare(std::move(mesh), triangles, local, options),
-                   slides ? "vertices slide" : "inverted triangles are untangled");
+    if (slides || !elements.are_triangles() ||
+        (options.untangles() && has_broken_triangles(triangles, mesh.reversed, local))) {
+      return alone(cpu_backend().prepare(std::move(mesh), elements, local, options),
+                   !elements.are_triangles() ? "quadrilaterals are smoothed"
+                   : slides                  ? "vertices slide"
+                                             : "inverted triangles are untangled");
     }
     SmoothingOptions of_rank = options;
     of_rank.backend = of_rank_;
@@ -149,11 +153,6 @@ class RankBackend final : public Backend {
   }
 
   bool takes_quadrilaterals() const override { return true; }
-  std::unique_ptr<PreparedSmoother> prepare_mixed(MeshRings mesh, std::span<const MixedElement> elements,
-                                                  std::span<const Point2<double>> local,
-                                                  const SmoothingOptions& options) const override {
-    return alone(cpu_backend().prepare_mixed(std::move(mesh), elements, local, options), "quadrilaterals are smoothed");
-  }
 
  private:
   std::unique_ptr<PreparedSmoother> alone(std::unique_ptr<PreparedSmoother> smoother, const std::string& why) const {

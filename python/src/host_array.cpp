@@ -296,10 +296,10 @@ TriangleArray::TriangleArray(const HostArray& array)
       while (count < nodes_ && !is_no_corner(number(count))) {
         ++count;
       }
-      const bool is_triangle = count == 3 || count == 6;
-      has_middles_ = has_middles_ || count != (is_triangle ? 3 : 4);
+      const std::size_t corners = corners_of_nodes(count);
+      has_middles_ = has_middles_ || count != corners;
       for (std::size_t k = 0; k < 4; ++k) {
-        const bool is_there = k < count && !(is_triangle && k == 3);
+        const bool is_there = k < (corners > 0 ? corners : count);
         corners_.push_back(is_there ? static_cast<std::int64_t>(number(k)) : no_corner);
       }
     });

@@ -7,14 +7,13 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <nanobind/nanobind.h>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/index_view.h"
 #include "trismooth/base/machine/workers.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/python/constraint_arrays.h"
 #include "trismooth/python/errors.h"
 #include "trismooth/python/host_array.h"
@@ -31,9 +30,7 @@ namespace trismooth::python {
 class PreparedTriangles {
  public:
   std::size_t vertex_count() const { return vertex_count_; }
-  std::size_t triangle_count() const {
-    return std::visit([](const auto& elements) { return elements.size(); }, elements_);
-  }
+  std::size_t triangle_count() const { return elements_.list().size(); }
 
  protected:
   /// `what`: what this is, in messages: "plan".
@@ -62,13 +59,7 @@ class PreparedTriangles {
     const Constraints all = held.constraints(call.slide);
     const nanobind::gil_scoped_release no_gil;
     naming_arguments([&] {
-      with_elements(triangles.corners(), static_cast<std::int64_t>(vertex_count_),
-                    [&](const auto& listed, auto& converted) {
-                      if (listed.data() != converted.data()) {
-                        converted.assign(listed.begin(), listed.end());
-                      }
-                      elements_ = std::move(converted);
-                    });
+      elements_ = own_elements(triangles.corners(), static_cast<std::int64_t>(vertex_count_));
       make(indices(), all, options);
     });
   }
@@ -113,15 +104,13 @@ class PreparedTriangles {
   int threads_ = 0;
 
  private:
-  IndexView indices() const {
-    return std::visit([](const auto& elements) { return IndexView(elements); }, elements_);
-  }
+  IndexView indices() const { return IndexView(elements_.list()); }
 
   Turns turns_;
   std::size_t vertex_count_;
   const char* what_;
   std::vector<double> sizes_;
-  std::variant<std::vector<Triangle>, std::vector<MixedElement>> elements_;
+  OwnElements elements_;
   Interruption* interruption_ = nullptr;  ///< of the call that is at work
 };
 

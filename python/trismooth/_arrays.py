@@ -78,6 +78,17 @@ def element_nodes(nodes: np.ndarray) -> np.ndarray:
     return numbers
 
 
+def corner_counts(numbers: np.ndarray) -> np.ndarray:
+    """How many corners elements have, 3 or 4: those of triangles of three and six nodes, and of quadrilaterals.
+
+    Parameters
+    ----------
+    numbers : ndarray of int, shape (..., N)
+        What :func:`element_nodes` returns of elements of any number of nodes.
+    """
+    return np.where(np.isin((numbers >= 0).sum(axis=-1), (3, 6)), 3, 4)
+
+
 def labels(array: Any, argument: str, of_what: str) -> np.ndarray:
     """Labels of any type, texts as well, as integers of 32 bits: equal ones where labels are equal; one each `of_what`."""
     values = on_host(array, argument)

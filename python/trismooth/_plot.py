@@ -219,7 +219,7 @@ def _corners(nodes: np.ndarray) -> np.ndarray:
         return nodes[:, :3]
     numbers = _arrays.element_nodes(nodes)
     corners: np.ndarray = numbers[:, :4].copy()
-    is_triangle = np.isin((numbers >= 0).sum(axis=1), (3, 6))
+    is_triangle = _arrays.corner_counts(numbers) == 3
     corners[is_triangle, 3] = corners[is_triangle, 2]
     return corners
 

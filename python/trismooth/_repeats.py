@@ -116,7 +116,7 @@ class Repeats:
 def _middles(nodes: np.ndarray) -> Dict[FrozenSet[int], int]:
     """The node in the middle of each side, by the side's ends, and that in the centre, by all corners."""
     numbers = [int(number) for number in nodes if number >= 0]
-    n_corners = 3 if len(numbers) in (3, 6) else 4
+    n_corners = int(_arrays.corner_counts(nodes))
     corners, others = numbers[:n_corners], numbers[n_corners:]
     middles = {frozenset((corners[i], corners[(i + 1) % n_corners])): middle for i, middle in enumerate(others[:n_corners])}
     middles.update({frozenset(corners): centre for centre in others[n_corners:]})

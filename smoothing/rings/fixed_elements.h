@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/prefix_sums.h"
@@ -21,20 +24,17 @@ class FixedElements {
   /// None.
   FixedElements() = default;
 
-  /// Those of a mesh. `reversed`: one flag a triangle, as Orientation::reversed; `fixed`: one byte a vertex, 0 is free.
+  /// Those of a mesh. `reversed`: one flag an element, as Orientation::reversed; `fixed`: one byte a vertex, 0 is free.
   /// `ghosts`: as MeshPart::ghosts, where it is a part of another mesh: then those whose first vertex it owns, so that
   /// each is in one part. Complexity: linear.
-  FixedElements(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
-                std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> ghosts = {})
-      : triangles_(listed(triangles, reversed, workers, [&](const Triangle& corners) {
-          return all_are_fixed(corners, fixed) && (ghosts.empty() || ghosts[std::ranges::min(corners)] == 0);
-        })) {}
-
-  /// Those of a mesh with quadrilaterals, which is no part of another one. Complexity: linear.
-  FixedElements(std::span<const MixedElement> elements, std::span<const std::uint8_t> reversed,
-                std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> /*ghosts*/ = {})
-      : mixed_(listed(elements, reversed, workers,
-                      [&](const MixedElement& corners) { return all_are_fixed(corners, fixed); })) {}
+  FixedElements(const ElementList& elements, std::span<const std::uint8_t> reversed,
+                std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> ghosts = {}) {
+    elements.visit([&]<class Corners>(std::span<const Corners> all) {
+      list_of<Corners>() = listed(all, reversed, workers, [&](const Corners& corners) {
+        return all_are_fixed(corners, fixed) && (ghosts.empty() || ghosts[first_vertex(corners)] == 0);
+      });
+    });
+  }
 
   /// Their smallest shape quotient, where position(v) is vertex v in the local frame; infinite where there is none.
   template <class Position>
@@ -53,6 +53,19 @@ class FixedElements {
   }
 
  private:
+  template <class Corners>
+  BulkVector<Corners>& list_of() {
+    if constexpr (std::same_as<Corners, Triangle>) {
+      return triangles_;
+    } else {
+      return mixed_;
+    }
+  }
+  template <class Corners>
+  static std::size_t first_vertex(const Corners& corners) {
+    return static_cast<std::size_t>(*std::min_element(corners.begin(), corners.begin() + corner_count(corners)));
+  }
+
   /// Those that count, in canonical order.
   template <class Corners, class Counts>
   static BulkVector<Corners> listed(std::span<const Corners> elements, std::span<const std::uint8_t> reversed,
@@ -74,10 +87,10 @@ class FixedElements {
   template <class Position, class Visit>
   void for_quotients(const Position& position, const Visit& visit) const {
     for (const Triangle& corners : triangles_) {
-      visit(shape_quotient(points_of(corners, position)));
+      visit(quotient_at(corners, position));
     }
-    for (const MixedElement& element : mixed_) {
-      visit(quotient_at(element, position));
+    for (const MixedElement& corners : mixed_) {
+      visit(quotient_at(corners, position));
     }
   }
 

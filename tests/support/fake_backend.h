@@ -48,7 +48,7 @@ class FakeBackend final : public trismooth::Backend {
   std::string name() const override { return "cuda"; }
 
   std::unique_ptr<trismooth::PreparedSmoother> prepare(trismooth::MeshRings mesh,
-                                                       std::span<const trismooth::Triangle> triangles,
+                                                       const trismooth::ElementList& elements,
                                                        std::span<const trismooth::Point2<double>> local,
                                                        const trismooth::SmoothingOptions& options) const override {
     ++prepared;
@@ -56,17 +56,10 @@ class FakeBackend final : public trismooth::Backend {
     trismooth::SmoothingOptions on_cpu = options;
     on_cpu.order = trismooth::Order::colour;  // the CPU has no other
     return std::make_unique<Smoother>(*this,
-                                      trismooth::cpu_backend().prepare(std::move(mesh), triangles, local, on_cpu));
+                                      trismooth::cpu_backend().prepare(std::move(mesh), elements, local, on_cpu));
   }
 
-  std::unique_ptr<trismooth::PreparedSmoother> prepare_mixed(
-      trismooth::MeshRings mesh, std::span<const trismooth::MixedElement> elements,
-      std::span<const trismooth::Point2<double>> local, const trismooth::SmoothingOptions& options) const override {
-    ++prepared;
-    fail_at(Failure::prepare, local.size());
-    return std::make_unique<Smoother>(
-        *this, trismooth::cpu_backend().prepare_mixed(std::move(mesh), elements, local, options));
-  }
+  bool takes_quadrilaterals() const override { return true; }
 
   std::optional<trismooth::MeshRings> find_rings(std::span<const trismooth::Point2<double>> points,
                                                  std::span<const trismooth::Triangle> triangles,
@@ -99,7 +92,7 @@ class FakeBackend final : public trismooth::Backend {
   /// From now on it fails there.
   void fail_next_at(Failure failure) { failure_ = failure; }
 
-  mutable std::atomic<int> prepared = 0;               ///< calls of prepare(), prepare_mixed() and prepare_mesh()
+  mutable std::atomic<int> prepared = 0;               ///< calls of prepare() and prepare_mesh()
   mutable std::atomic<int> smoothed = 0;               ///< of smooth()
   mutable std::atomic<int> rings_found = 0;            ///< of find_rings()
   mutable std::atomic<std::int64_t> started_for = -1;  ///< vertices; -1: it was not started

@@ -18,11 +18,12 @@ class PartsBackend final : public trismooth::Backend {
 
   std::string name() const override { return "cpu in parts"; }
   std::unique_ptr<trismooth::PreparedSmoother> prepare(trismooth::MeshRings mesh,
-                                                       std::span<const trismooth::Triangle> triangles,
+                                                       const trismooth::ElementList& elements,
                                                        std::span<const trismooth::Point2<double>> local,
                                                        const trismooth::SmoothingOptions& options) const override {
-    return trismooth::prepare_in_parts(std::move(mesh), triangles, local, options, parts_);
+    return trismooth::prepare_in_parts(std::move(mesh), elements.triangles(), local, options, parts_);
   }
+  bool takes_quadrilaterals() const override { return false; }
 
  private:
   int parts_;
