@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -49,6 +50,11 @@ class ElementList {
   [[nodiscard]] Iterator begin() const;
   /// Behind the last one.
   [[nodiscard]] Iterator end() const;
+
+  /// How many are quadrilaterals. Complexity: linear.
+  [[nodiscard]] std::int64_t count_quadrilaterals() const {
+    return std::ranges::count_if(mixed_, [](const MixedElement& element) { return element[3] != no_corner; });
+  }
 
   /// All of them, where they are listed so.
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }

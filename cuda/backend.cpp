@@ -33,6 +33,8 @@
 #include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/follower.h"
+#include "trismooth/smoothing/noted_smoother.h"
 #include "trismooth/smoothing/rings/fixed_elements.h"
 
 namespace trismooth::cuda {
@@ -285,6 +287,13 @@ class CudaBackend final : public Backend {
                                      const SmoothingOptions& options) const override {
     const DeviceScope scope(device_);
     require_device();
+    if (!mesh.elements().are_triangles()) {
+      return host_follower(mesh,
+                           std::make_unique<NotedSmoother>(
+                               cpu_backend().prepare(std::move(rings), mesh.elements(), mesh.local().points, options),
+                               "a mesh with quadrilaterals follows its boundary on the CPU"),
+                           options);
+    }
     std::unique_ptr<Follower> follower = std::make_unique<DeviceFollower>(mesh, rings, options);
     return device_ ? std::make_unique<FollowerOnDevice>(*device_, std::move(follower)) : std::move(follower);
   }

@@ -30,7 +30,7 @@ DeviceFollower::DeviceFollower(const MeshAtRest& mesh, const MeshRings& rings, c
       context_(stream ? Context(*stream) : Context()),
       copier_(context_, options.threads),
       count_(static_cast<std::int32_t>(mesh.points().size())),
-      triangles_(copier_.uploaded(std::span<const Triangle>(mesh.triangles()))),
+      triangles_(copier_.uploaded(mesh.elements().triangles())),
       reversed_(copier_.uploaded(std::span<const std::uint8_t>(mesh.reversed()))),
       held_(copier_.uploaded(std::span<const std::uint8_t>(mesh.held()))),
       held_alone_(context_, mesh.held_alone()),
@@ -49,7 +49,7 @@ DeviceFollower::DeviceFollower(const MeshAtRest& mesh, const MeshRings& rings, c
   smoother_ = make_device_smoother(context_, uploaded(copier_, rings.rings),
                                    copier_.uploaded(std::span<const Point2<double>>(mesh.local().points)), options);
   if (options.untangles()) {
-    untangling_.emplace(rings.fixed, mesh.triangles(), options);
+    untangling_.emplace(rings.fixed, mesh.elements(), options);
     untangling_->aim_at(mesh.points(), mesh.local().frame);
   }
   extent_.find(rest_.data(), count_, held_.data());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/cuda/moving_mesh.h"
 
+#include <stdexcept>
+
 #include "trismooth/base/moved_from.h"
 #include "trismooth/cuda/device_follower.h"
 #include "trismooth/cuda/devices.h"
@@ -33,6 +35,11 @@ class MovingMesh::Implementation : public MovingParts<DeviceFollower> {
 MovingMesh::MovingMesh(const ConstPointView& reference, const IndexView& triangles, const Constraints& constraints,
                        const SmoothingOptions& options, cudaStream_t stream) {
   options_of_moving(options, constraints);
+  if (triangles.may_have_quadrilaterals()) {
+    throw std::invalid_argument(
+        "triangles: four vertex numbers each; points in device memory follow as triangles alone, of which there are "
+        "three, and with quadrilaterals in memory of the host");
+  }
   require_device();
   implementation_ = planned(
       options, [&] { return std::make_unique<Implementation>(reference, triangles, constraints, options, stream); });

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
+#include "trismooth/smoothing/backend.h"
 #include "trismooth/smoothing/limited.h"
 #include "trismooth/smoothing/moving/mesh_at_rest.h"
 #include "trismooth/smoothing/moving_mesh.h"
@@ -48,5 +50,10 @@ class Follower {
   /// The last result.
   virtual std::vector<Point2<double>> points() const = 0;
 };
+
+/// Carries the mesh, which outlives it, along on the host; `smoother` has been made of its rings, and does the rest.
+/// Throws as PreparedSmoother::aim_at().
+std::unique_ptr<Follower> host_follower(const MeshAtRest& mesh, std::unique_ptr<PreparedSmoother> smoother,
+                                        const SmoothingOptions& options);
 
 }  // namespace trismooth

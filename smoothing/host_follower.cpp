@@ -108,12 +108,15 @@ class HostFollower final : public Follower {
     if (result.smoothing.untangling) {
       turned.swap(result.smoothing.untangling->turned);
     }
-    count_invalid(
-        mesh_.triangles(), mesh_.reversed(), [&](std::int32_t v) { return places[v]; }, workers_, result.smoothing);
+    mesh_.elements().visit([&](const auto& listed) {
+      count_invalid(
+          listed, mesh_.reversed(), [&](std::int32_t v) { return places[v]; }, workers_, result.smoothing);
+    });
+    result.smoothing.quadrilaterals = mesh_.elements().count_quadrilaterals();
     if (result.smoothing.untangling) {
       turned.swap(result.smoothing.untangling->turned);
     }
-    mesh_.list_overlaps(overlapping_vertices(mesh_.triangles(), mesh_.reversed(), mesh_.held(), places, workers_),
+    mesh_.list_overlaps(overlapping_vertices(mesh_.elements(), mesh_.reversed(), mesh_.held(), places, workers_),
                         result);
     if (result.smoothing.inverted + result.smoothing.degenerate > 0) {
       mesh_.list_invalid(places, result);
@@ -127,14 +130,17 @@ class HostFollower final : public Follower {
         return *this;
       }
     };
-    const Shapes shapes = ordered_sum(
-        mesh_.triangles().size(),
-        [&](std::size_t t) {
-          Shapes one;
-          one.of_all = relative_shapes(mesh_.corners(t), mesh_.held(), mesh_.local().points, places, one.sum);
-          return one;
-        },
-        workers_);
+    const Shapes shapes = mesh_.elements().visit([&](const auto& listed) {
+      return ordered_sum(
+          listed.size(),
+          [&](std::size_t e) {
+            Shapes one;
+            one.of_all = relative_shapes(canonical_corners(listed[e], mesh_.reversed()[e] != 0), mesh_.held(),
+                                         mesh_.local().points, places, one.sum);
+            return one;
+          },
+          workers_);
+    });
     tell(shapes.of_all, shapes.sum, result);
     result.largest_move = joined_blocks(
         std::ssize(now), grain, workers_, 0.0,
@@ -157,12 +163,15 @@ class HostFollower final : public Follower {
 
 }  // namespace
 
-std::unique_ptr<Follower> Backend::follower(const MeshAtRest& mesh, MeshRings rings,
-                                            const SmoothingOptions& options) const {
-  std::unique_ptr<PreparedSmoother> smoother =
-      prepare(std::move(rings), mesh.triangles(), mesh.local().points, options);
+std::unique_ptr<Follower> host_follower(const MeshAtRest& mesh, std::unique_ptr<PreparedSmoother> smoother,
+                                        const SmoothingOptions& options) {
   smoother->aim_at(mesh.points(), mesh.local().frame);
   return std::make_unique<HostFollower>(mesh, std::move(smoother), options);
+}
+
+std::unique_ptr<Follower> Backend::follower(const MeshAtRest& mesh, MeshRings rings,
+                                            const SmoothingOptions& options) const {
+  return host_follower(mesh, prepare(std::move(rings), mesh.elements(), mesh.local().points, options), options);
 }
 
 }  // namespace trismooth

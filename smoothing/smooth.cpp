@@ -129,7 +129,7 @@ class SmoothingPlan::Implementation {
     patient.reset();
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);
     result.layers = mesh_->layers();
-    result.quadrilaterals = std::ranges::count_if(elements, [](const auto& e) { return corner_count(e) == 4; });
+    result.quadrilaterals = ElementList(elements).count_quadrilaterals();
     count_invalid(
         elements, mesh_->reversed(), [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
     return result;

@@ -229,9 +229,7 @@ void hold_named_sides(const MeshDocument& document, ElementCells& mesh) {
 }  // namespace
 
 std::int64_t ElementCells::count_quadrilaterals() const {
-  return elements.are_triangles()
-             ? 0
-             : std::count_if(elements.begin(), elements.end(), [](auto corners) { return corners.size() == 4; });
+  return elements.count_quadrilaterals();
 }
 
 std::int64_t ElementCells::count_quadratic_quads() const {

@@ -31,7 +31,7 @@ using FilePoint = Eigen::Map<const Eigen::Vector3d>;
 
 MovingMesh moving_mesh_of(const RunState& run) {
   try {
-    return {run.mesh.points, run.mesh.elements.triangles(), {.fixed = run.found.fixed}, run.smoothing};
+    return {run.mesh.points, IndexView(run.mesh.elements), {.fixed = run.found.fixed}, run.smoothing};
   } catch (const MeshError& error) {
     throw ReadError(run.options.input, error.what());
   }
@@ -46,20 +46,21 @@ std::vector<Obeys> who_obeys(const RunState& run) {
     const std::uint8_t held = run.found.fixed[v];
     obeys[v] = held == 0 ? Obeys::never : hold::is_unused(held) ? Obeys::if_told : Obeys::always;
   }
-  // Middles follow their sides, but where a side is not between two triangles of one region they may be told.
+  // Middles follow their sides, but where a side is not between two elements of one region they may be told; centres
+  // follow their corners.
   for (const MiddleNode& middle : mesh.middles) {
     obeys[middle.vertex] = Obeys::never;
   }
-  std::vector<std::int32_t> first_triangle(mesh.middles.empty() ? 0 : mesh.points.size(), none);
-  const auto region_of = [&](std::int32_t triangle) {
-    return run.regions.of_triangle.empty() ? 0 : run.regions.of_triangle[triangle];
+  std::vector<std::int32_t> first_element(mesh.middles.empty() ? 0 : mesh.points.size(), none);
+  const auto region_of = [&](std::int32_t element) {
+    return run.regions.of_triangle.empty() ? 0 : run.regions.of_triangle[element];
   };
   for (const QuadraticElement& quadratic : mesh.quadratics) {
-    for (const std::int32_t middle : quadratic.middles) {
+    for (const std::int32_t middle : std::span(quadratic.middles).first(mesh.elements[quadratic.element].size())) {
       if (middle == no_corner || obeys[middle] == Obeys::always) {
         continue;  // held by itself
       }
-      std::int32_t& first = first_triangle[middle];
+      std::int32_t& first = first_element[middle];
       const bool is_on_boundary = first == none || region_of(first) != region_of(quadratic.element);
       obeys[middle] = is_on_boundary ? Obeys::if_told : Obeys::never;
       first = quadratic.element;
@@ -68,9 +69,12 @@ std::vector<Obeys> who_obeys(const RunState& run) {
   return obeys;
 }
 
-/// The quadrilaterals, which are held, that are valid in the file, counter-clockwise.
-std::vector<MixedElement> valid_quads(const RunState& run) {
+/// The quadrilaterals that are held, and valid in the file, counter-clockwise.
+std::vector<MixedElement> valid_held_quads(const RunState& run) {
   std::vector<MixedElement> valid;
+  if (run.mesh.held_quads == 0) {
+    return valid;
+  }
   const CellList& cells = run.document.cells;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     if (const auto quad = quad_of_cell(cells.types[cell], cells[cell])) {
@@ -93,7 +97,7 @@ Deformer::Deformer(RunState& run)
       file_places_(run.mesh.points),
       file_local_(run.local),
       obeys_(who_obeys(run)),
-      valid_quads_(valid_quads(run)),
+      valid_quads_(valid_held_quads(run)),
       moving_(moving_mesh_of(run)) {
   if (run.options.annotate) {
     run.input_points = file_points_;
@@ -124,8 +128,7 @@ SmoothingResult Deformer::follow() {
   ++done_;
   run_.enter_frame();
   run_.result.coordinates_hash = run_.result.unguarded_hash = coordinates_hash(run_.document.points);
-  const TriangleView before{file_local_.points, run_.mesh.elements.triangles(), run_.found.reversed,
-                            file_local_.frame.exponent};
+  const MeshView before{file_local_.points, run_.mesh.elements, run_.found.reversed, file_local_.frame.exponent};
   run_.result.size_change = size_change(before, run_.view(), run_.options.smoothing.threads);
   return followed_.smoothing;
 }
@@ -249,7 +252,7 @@ void Deformer::step_checked() {
     run_.warn(counted(folded_quads_, "quadrilateral that is held is folded, or has",
                       "quadrilaterals that are held are folded, or have") +
               " a flat corner, where most are: they go where their corners are told, and are in no figure "
-              "and no gate; two triangles in place of each follow the boundary");
+              "and no gate; without --quads hold they follow the boundary");
   }
   result.deformation = std::move(steps_);
   for (std::string& warning : warnings_of_deformation(run_.result)) {

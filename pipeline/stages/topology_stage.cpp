@@ -139,8 +139,7 @@ Quads settled_quads(RunState& run) {
   };
   const Backend& backend = backend_of(run.smoothing);
   const std::string reason =
-      options.deformation      ? "a mesh that follows its boundary moves by its triangles alone"
-      : options.halfedge_stage ? "the program's own stage has triangles alone, as halfedges"
+      options.halfedge_stage ? "the program's own stage has triangles alone, as halfedges"
       : run.smoothing.topology == Topology::halfedge
           ? "halfedges are those of triangles alone; without --topology halfedge they are smoothed"
       : !backend.takes_quadrilaterals() ? "backend '" + backend.name() + "' smooths triangles alone here"

@@ -51,16 +51,16 @@ Point2<double> turn_of(Point2<double> before, Point2<double> now) {
 
 }  // namespace
 
-Carrier::Carrier(const RingView& rings, std::span<const Triangle> triangles, std::span<const Point2<double>> points)
+Carrier::Carrier(const RingView& rings, const ElementList& elements, std::span<const Point2<double>> points)
     : carried_(tied_vertices(rings)) {
   constexpr std::int32_t nowhere = -1;
   std::vector<std::int32_t> place(points.size(), nowhere);
   for (std::size_t i = 0; i < carried_.size(); ++i) {
     place[carried_[i]] = static_cast<std::int32_t>(i);
   }
-  for (const Triangle& t : triangles) {
-    for (std::size_t i = 0; i < t.size(); ++i) {
-      const auto [a, b] = std::minmax(t[i], t[(i + 1) % t.size()]);
+  for (const auto corners : elements) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto [a, b] = std::minmax(corners[i], next_corner(corners, i));
       if (!rings.is_free(a) && !rings.is_free(b)) {
         edges_.push_back({a, b});
       }

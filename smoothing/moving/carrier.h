@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/moving/carry.h"
 #include "trismooth/smoothing/rings/one_rings.h"
 #include "trismooth/smoothing/systems/graph_laplacian.h"
@@ -31,7 +31,7 @@ class Carrier {
   Carrier() = default;
   /// `rings`: of the free vertices, in the numbering of the points; `points`: in any frame. Complexity: linear, but for
   /// sorting the held vertices.
-  Carrier(const RingView& rings, std::span<const Triangle> triangles, std::span<const Point2<double>> points);
+  Carrier(const RingView& rings, const ElementList& elements, std::span<const Point2<double>> points);
 
   /// Those that are carried, ascending: the free vertices that hang together with a held one.
   const std::vector<std::int32_t>& carried() const { return carried_; }

@@ -36,22 +36,20 @@ const SmoothingOptions& options_of_moving(const SmoothingOptions& options, const
 MeshAtRest::MeshAtRest(std::vector<Point2<double>> points, const IndexView& triangles, const Constraints& constraints,
                        Layers layers, Workers& workers, MeshRings& rings)
     : points_(std::move(points)) {
-  check_mesh_size(std::ssize(points_), static_cast<std::int64_t>(triangles.size()));
-  const std::span<const Triangle> listed = triangles.triangles(std::ssize(points_), triangles_);
-  if (listed.data() != triangles_.data()) {
-    triangles_.assign(listed.begin(), listed.end());
-  }
-  AnalysedMesh mesh(static_cast<std::int32_t>(points_.size()), triangles_, constraints, workers);
+  check_mesh_size(std::ssize(points_), static_cast<std::int64_t>(triangles.size()),
+                  triangles.may_have_quadrilaterals() ? 4 : 3);
+  elements_ = own_elements(triangles, std::ssize(points_));
+  AnalysedMesh mesh(static_cast<std::int32_t>(points_.size()), elements(), constraints, workers);
   held_ = mesh.fixed();
   local_ = in_frame_of(points_, held_, workers);
-  mesh.look_at(local_.points, triangles_, layers, workers);
+  mesh.look_at(local_.points, elements(), layers, workers);
   layers_ = mesh.layers();
   reversed_ = mesh.reversed();
   // What is carried is not held, layers are.
-  carrier_ = Carrier(mesh.rings_of(held_, triangles_, workers).view(), triangles_, local_.points);
+  carrier_ = Carrier(mesh.rings_of(held_, elements(), workers).view(), elements(), local_.points);
   crossings_ = meetings(of_held(in_frame_of(points_, held_alone(), workers).points), most_crossings);
-  overlaps_ = overlapping_vertices(triangles_, reversed_, held_, local_.points, workers);
-  rings = std::move(mesh).with_rings(triangles_, workers);
+  overlaps_ = overlapping_vertices(elements(), reversed_, held_, local_.points, workers);
+  rings = std::move(mesh).with_rings(elements(), workers);
 }
 
 std::vector<std::uint8_t> MeshAtRest::held_alone() const {
@@ -99,11 +97,13 @@ void MeshAtRest::list_overlaps(std::span<const std::int32_t> overlapping, Follow
 }
 
 void MeshAtRest::list_invalid(std::span<const Point2<double>> now, FollowResult& result) const {
-  for (std::size_t t = 0; t < triangles_.size() && result.invalid.size() < FollowResult::most_listed; ++t) {
-    if (!(shape_quotient(points_of(corners(t), now)) > 0)) {
-      result.invalid.push_back(static_cast<std::int32_t>(t));
+  elements().visit([&](const auto& listed) {
+    for (std::size_t e = 0; e < listed.size() && result.invalid.size() < FollowResult::most_listed; ++e) {
+      if (!(quotient_at(canonical_corners(listed[e], reversed_[e] != 0), now) > 0)) {
+        result.invalid.push_back(static_cast<std::int32_t>(e));
+      }
     }
-  }
+  });
 }
 
 }  // namespace trismooth

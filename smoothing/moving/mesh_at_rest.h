@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/index_view.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/follow_result.h"
 #include "trismooth/smoothing/moving/carrier.h"
@@ -33,7 +33,7 @@ class MeshAtRest {
   MeshAtRest(std::vector<Point2<double>> points, const IndexView& triangles, const Constraints& constraints,
              Layers layers, Workers& workers, MeshRings& rings);
 
-  const std::vector<Triangle>& triangles() const { return triangles_; }
+  ElementList elements() const { return elements_.list(); }
   const std::vector<Point2<double>>& points() const { return points_; }
   /// The points in the frame of the vertices that cells use.
   const LocalPoints& local() const { return local_; }
@@ -41,13 +41,10 @@ class MeshAtRest {
   const std::vector<std::uint8_t>& held() const { return held_; }
   /// held() for a frame in which free vertices have no say: these are hold::isolated.
   std::vector<std::uint8_t> held_alone() const;
-  /// As the reference orients its triangles, see MeshRings.
+  /// As the reference orients its elements, see MeshRings.
   const std::vector<std::uint8_t>& reversed() const { return reversed_; }
   const LayersResult& layers() const { return layers_; }
   const Carrier& carrier() const { return carrier_; }
-
-  /// The corners of triangle t as the reference orients it.
-  Triangle corners(std::size_t t) const { return canonical_corners(triangles_[t], reversed_[t] != 0); }
 
   /// Those of carrier().held(). Complexity: linear in these.
   std::vector<Point2<double>> of_held(std::span<const Point2<double>> points) const;
@@ -64,7 +61,7 @@ class MeshAtRest {
 
   std::vector<MeetingEdges> meetings(std::span<const Point2<double>> now, std::size_t most) const;
 
-  std::vector<Triangle> triangles_;
+  OwnElements elements_;
   std::vector<Point2<double>> points_;
   LocalPoints local_;
   std::vector<std::uint8_t> held_;

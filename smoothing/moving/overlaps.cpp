@@ -3,24 +3,27 @@
 
 #include <atomic>
 #include <cstddef>
+#include <utility>
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/smoothing/moving/winding.h"
 
 namespace trismooth {
 
-std::vector<std::int32_t> overlapping_vertices(std::span<const Triangle> triangles,
-                                               std::span<const std::uint8_t> reversed,
+std::vector<std::int32_t> overlapping_vertices(const ElementList& elements, std::span<const std::uint8_t> reversed,
                                                std::span<const std::uint8_t> held,
                                                std::span<const Point2<double>> points, Workers& workers) {
   std::vector<std::int64_t> around(points.size(), 0);
-  workers.for_blocks(std::ssize(triangles), 8192, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end; ++t) {
-      const Triangle corners = canonical_corners(triangles[t], reversed[t] != 0);
+  workers.for_blocks(static_cast<std::int64_t>(elements.size()), 8192, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) {
+      const auto corners = elements[static_cast<std::size_t>(e)];
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::int32_t v = corners[i];
-        const Point2<double> from = points[corners[(i + 1) % 3]] - points[v];
-        const Point2<double> to = points[corners[(i + 2) % 3]] - points[v];
+        Point2<double> from = points[next_corner(corners, i)] - points[v];
+        Point2<double> to = points[previous_corner(corners, i)] - points[v];
+        if (reversed[e] != 0) {
+          std::swap(from, to);
+        }
         if (const std::int64_t part = Winding::of(held[v] != 0, from, to); part != 0) {
           std::atomic_ref(around[v]).fetch_add(part, std::memory_order_relaxed);
         }

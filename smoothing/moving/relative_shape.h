@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -31,7 +32,23 @@ constexpr TRISMOOTH_HOST_DEVICE double relative_shape(const std::array<Point2<do
   return squares > 0 ? 2 * cross(to[1] - to[0], to[2] - to[0]) * area / squares : 0;  // 0: all corners in one place
 }
 
-/// What a FollowResult says of shapes, of some triangles. The sum apart, which depends on the order of adding.
+/// The smallest at the corners of a quadrilateral, of the triangles that each makes with the sides that leave it. NaN
+/// where the first is not valid.
+constexpr double relative_shape(const QuadrilateralPoints& from, const QuadrilateralPoints& to) {
+  if (!(shape_quotient(from) > 0)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto corner = [i](const QuadrilateralPoints& of) {
+      return CornerPoints{of[i], of[(i + 1) % 4], of[(i + 3) % 4]};
+    };
+    least = std::min(least, relative_shape(corner(from), corner(to)));
+  }
+  return least;
+}
+
+/// What a FollowResult says of shapes, of some elements. The sum apart, which depends on the order of adding.
 struct RelativeShapes {
   double least;
   std::int64_t count;         ///< of those that are valid at rest
@@ -49,13 +66,13 @@ struct RelativeShapes {
   }
 };
 
-/// Of one triangle. `held`: why each vertex is; `rest`, `now`: all vertices, each in its local frame; `shape` gets its
-/// shape, 0 where it has none.
-template <class Held, class Rest, class Now>
-TRISMOOTH_HOST_DEVICE RelativeShapes relative_shapes(const Triangle& corners, const Held& held, const Rest& rest,
+/// Of one element, in canonical order. `held`: why each vertex is; `rest`, `now`: all vertices, each in its local
+/// frame; `shape` gets its shape, 0 where it has none.
+template <class Corners, class Held, class Rest, class Now>
+TRISMOOTH_HOST_DEVICE RelativeShapes relative_shapes(const Corners& corners, const Held& held, const Rest& rest,
                                                      const Now& now, double& shape) {
-  const auto to = points_of(corners, now);
-  const double found = relative_shape(points_of(corners, rest), to);
+  const double found = with_kind(
+      corners, [&](const auto& element) { return relative_shape(points_of(element, rest), points_of(element, now)); });
   const bool is_finite = found - found == 0;
   shape = is_finite ? found : 0;
   RelativeShapes one = RelativeShapes::none();
@@ -63,7 +80,7 @@ TRISMOOTH_HOST_DEVICE RelativeShapes relative_shapes(const Triangle& corners, co
     one.least = found;
     one.count = 1;
   }
-  one.invalid_held = all_are_fixed(corners, held) && !(shape_quotient(to) > 0) ? 1 : 0;
+  one.invalid_held = all_are_fixed(corners, held) && !(quotient_at(corners, now) > 0) ? 1 : 0;
   return one;
 }
 

@@ -10,15 +10,15 @@
 
 namespace trismooth {
 
-/// How the triangles around a vertex go round it, in whole numbers, whose sums are the same in any order: around a free
+/// How the elements around a vertex go round it, in whole numbers, whose sums are the same in any order: around a free
 /// one, how often; around a held one, by how much, in 2^-44.
 struct Winding {
-  /// What a triangle adds whose edges lead from the vertex to `from` and, counter-clockwise, `to`.
+  /// What an element adds whose edges lead from the vertex to `from` and, counter-clockwise, `to`.
   static TRISMOOTH_HOST_DEVICE std::int64_t of(bool is_held, Point2<double> from, Point2<double> to) {
     return is_held ? angle(from, to) : passes(from, to);
   }
 
-  /// Whether the triangles lie over each other: they go round more than once, or make more than a full turn.
+  /// Whether the elements lie over each other: they go round more than once, or make more than a full turn.
   static TRISMOOTH_HOST_DEVICE bool is_over(bool is_held, std::int64_t sum) {
     // A slit that is closed goes round its tip once, to rounding. Where it is less than this beyond a full turn its
     // edges touch (lie_on_each_other() of crossings.cpp), so that one of both says so.

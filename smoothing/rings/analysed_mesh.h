@@ -20,14 +20,11 @@ namespace trismooth {
 class Workers;
 
 /// A mesh whose connectivity is analysed once, on the host, whatever its coordinates are by then. Owns all it needs but
-/// the elements, triangles or MixedElements, which are handed in and are the same in every call.
+/// the elements, which are handed in and are the same in every call.
 class AnalysedMesh {
  public:
   /// Throws as connect_triangles() and fixed_vertices() do. Complexity: linear.
-  AnalysedMesh(std::int32_t vertex_count, std::span<const Triangle> triangles, const Constraints& constraints,
-               Workers& workers);
-  /// With quadrilaterals.
-  AnalysedMesh(std::int32_t vertex_count, std::span<const MixedElement> elements, const Constraints& constraints,
+  AnalysedMesh(std::int32_t vertex_count, const ElementList& elements, const Constraints& constraints,
                Workers& workers);
 
   /// Why each vertex is held, bits of namespace hold; layers are among them when points have been looked at.
@@ -39,39 +36,29 @@ class AnalysedMesh {
 
   /// Orients the components as these points in the local frame have them; the first points also say what is a layer and
   /// what may slide. True where the orientation is a new one. Complexity: linear.
-  bool look_at(std::span<const Point2<double>> local, std::span<const Triangle> triangles, Layers layers,
-               Workers& workers);
-  bool look_at(std::span<const Point2<double>> local, std::span<const MixedElement> elements, Layers layers,
-               Workers& workers);
+  bool look_at(std::span<const Point2<double>> local, const ElementList& elements, Layers layers, Workers& workers);
 
   /// The rings of the vertices that `held` leaves free, after points have been looked at. Complexity: linear.
-  template <class Elements>
-  OneRings rings_of(std::span<const std::uint8_t> held, const Elements& elements, Workers& workers) const {
-    return connectivity_.one_rings(elements, mesh_.reversed, held, workers);
+  OneRings rings_of(std::span<const std::uint8_t> held, const ElementList& elements, Workers& workers) const {
+    return elements.visit(
+        [&](const auto& listed) { return connectivity_.one_rings(listed, mesh_.reversed, held, workers); });
   }
 
   /// All that is known, after points have been looked at. Complexity: linear.
-  template <class Elements>
-  MeshRings with_rings(const Elements& elements, Workers& workers) const& {
+  MeshRings with_rings(const ElementList& elements, Workers& workers) const& {
     MeshRings copy = mesh_;
     copy.rings = rings_of(mesh_.fixed, elements, workers);
     return copy;
   }
   /// All that is known, for the last time: the memory of it goes into the result.
-  template <class Elements>
-  MeshRings with_rings(const Elements& elements, Workers& workers) && {
-    mesh_.rings = std::move(connectivity_).one_rings(elements, mesh_.reversed, mesh_.fixed, workers);
+  MeshRings with_rings(const ElementList& elements, Workers& workers) && {
+    mesh_.rings = elements.visit([&](const auto& listed) {
+      return std::move(connectivity_).one_rings(listed, mesh_.reversed, mesh_.fixed, workers);
+    });
     return std::move(mesh_);
   }
 
  private:
-  /// What the constructors, and look_at(), do to both kinds of elements.
-  template <class Corners>
-  void connect(std::int32_t vertex_count, std::span<const Corners> elements, const Constraints& constraints,
-               Workers& workers);
-  template <class Corners>
-  bool look(std::span<const Point2<double>> local, std::span<const Corners> elements, Layers layers, Workers& workers);
-
   MeshConnectivity connectivity_;
   MeshRings mesh_;  ///< but for the rings
   bool has_found_layers_ = false;
