@@ -34,7 +34,7 @@ struct EnumText<MovingStart> {
 };
 
 /// The options that MovingMesh has by default: Method::mean_ratio with the shapes and sizes of the reference as
-/// targets. The power of the energy is 8, for the worst triangle counts most where a mesh is deformed, and sizes weigh
+/// targets. The power of the energy is 8, for the worst element counts most where a mesh is deformed, and sizes weigh
 /// less than in a mesh that stays (found by experiment: docs/moving.md).
 [[nodiscard]] SmoothingOptions moving_options();
 
@@ -60,8 +60,8 @@ struct EnumText<MovingStart> {
 /// std::logic_error in a callback of its own follow().
 class [[nodiscard]] MovingMesh {
  public:
-  /// `reference`: one point for every vertex, in the plane of x and y. `triangles`, `constraints`: as SmoothingPlan has
-  /// them; no vertices slide. Throws MeshError and std::invalid_argument as SmoothingPlan does, and MeshError for a
+  /// `reference`: one point for every vertex, in the plane of x and y. `triangles`: elements, quadrilaterals among them
+  /// where four numbers are listed for each; those, and `constraints`: as SmoothingPlan has them; no vertices slide. Throws MeshError and std::invalid_argument as SmoothingPlan does, and MeshError for a
   /// coordinate that is not finite; std::invalid_argument also for sliding, for options.mean_ratio.target_lengths
   /// (sizes are those of the reference) and for a backend of several devices; DeviceError; PlanCancelled. Complexity:
   /// linear, but for sorting the edges of each vertex.

@@ -444,3 +444,29 @@ def test_what_has_no_meaning_for_a_mesh_that_moves_is_refused_by_its_name():
         trismooth.MovingMesh(points, triangles, stream=1)
     with pytest.raises(TypeError, match="^start: "):
         trismooth.MovingMesh(points, triangles).follow(points, start=None)
+
+
+def test_quadrilaterals_follow_alone_and_beside_triangles_and_come_back_valid():
+    around, between = 32, 8
+    radii = 3.0 ** (np.arange(between + 1) / between)
+    angles = 2 * np.pi * np.arange(around) / around
+    points = np.stack(
+        [np.outer(radii, np.cos(angles)).ravel(), np.outer(radii, np.sin(angles)).ravel()], axis=1
+    )
+    ring, sector = np.divmod(np.arange(around * between), around)
+    a, b = ring * around + sector, ring * around + (sector + 1) % around
+    quads = np.stack([a, a + around, b + around, b], axis=1).astype(np.int64)
+    cut = (ring + sector) % 3 == 0
+    first, second = quads[cut][:, [0, 1, 2, 2]].copy(), quads[cut][:, [0, 2, 3, 3]].copy()
+    first[:, 3] = second[:, 3] = -1
+    for elements in (quads, np.concatenate([quads[~cut], first, second])):
+        mesh = trismooth.MovingMesh(points, elements, layers="smooth")
+        assert mesh.n_triangles == len(elements)
+        now = points.copy()
+        c, s = np.cos(0.6), np.sin(0.6)
+        now[:around] = points[:around] @ np.array([[c, s], [-s, c]])
+        result = mesh.follow(now)
+        assert result.valid and result.min_relative_shape > 0.1
+        assert np.array_equal(result.points[:around], now[:around])
+        assert trismooth.quality(result.points, elements).summary.inverted == 0
+        assert mesh.follow(now).points.tobytes() == result.points.tobytes()

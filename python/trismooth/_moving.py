@@ -12,7 +12,7 @@ from ._constraints import Constraints
 from ._notes import options_without_effect, warn_of
 from ._plan import OnHost
 from ._result import NOT_MENDED as _NOT_MENDED
-from ._result import Result, layers_notes, notes_of
+from ._result import Result, kind_of, layers_notes, notes_of
 from ._smooth import Progress
 
 _MOST_LISTED = 1000
@@ -44,7 +44,7 @@ def _notes_of_following(outcome: _core.Outcome, says_layers: bool) -> List[str]:
     folded = 0 if outcome.following is None else outcome.following["invalid_held"]
     if folded > 0:
         notes.append(
-            f"the boundary has folded: all vertices of {folded:,} triangle{'' if folded == 1 else 's'} that "
+            f"the boundary has folded: all vertices of {folded:,} {kind_of(outcome)}{'' if folded == 1 else 's'} that "
             f"{'is' if folded == 1 else 'are'} inverted or without area are held, and no place of the others mends "
             f"{'it' if folded == 1 else 'them'}"
         )
@@ -85,14 +85,14 @@ class FollowResult(Result):
 
     @property
     def valid(self) -> bool:
-        """Whether a solver may go on with this mesh: no triangle is inverted or degenerate, and it lies over itself nowhere.
+        """Whether a solver may go on with this mesh: no element is inverted or degenerate, and it lies over itself nowhere.
         False as well where the call was over before the first sweep."""
         return bool(_following(self._outcome)["valid"])
 
     @property
     def min_relative_shape(self) -> float:
-        """The smallest shape of a triangle seen from the reference's: 1 where it has the same shape, 0 or less where it is
-        degenerate or inverted. NaN where no triangle is valid in the reference."""
+        """The smallest shape of an element seen from the reference's: 1 where it has the same shape, 0 or less where it is
+        degenerate or inverted; of a quadrilateral at its worst corner. NaN where no element is valid in the reference."""
         return float(_following(self._outcome)["min_relative_shape"])
 
     @property
@@ -102,7 +102,7 @@ class FollowResult(Result):
 
     @property
     def invalid_held(self) -> int:
-        """How many triangles the boundary itself has inverted or made degenerate: all their vertices are held."""
+        """How many elements the boundary itself has inverted or made degenerate: all their vertices are held."""
         return int(_following(self._outcome)["invalid_held"])
 
     @property
@@ -113,13 +113,13 @@ class FollowResult(Result):
 
     @property
     def overlaps(self) -> List[int]:
-        """Vertices around which the mesh lies over itself, and does not in the reference: the triangles around one go
+        """Vertices around which the mesh lies over itself, and does not in the reference: the elements around one go
         round it more than once, as where a hole has been turned inside out. 1000 at most."""
         return list(_following(self._outcome)["overlaps"])
 
     @property
     def invalid(self) -> List[int]:
-        """The triangles that are inverted or degenerate. 1000 at most."""
+        """The elements that are inverted or degenerate. 1000 at most."""
         return list(_following(self._outcome)["invalid"])
 
     @property
@@ -150,10 +150,11 @@ class MovingMesh:
     points : array of float64 or float32, shape (N, 2) or (N, 3)
         The reference: of NumPy, or on a CUDA device (CuPy, PyTorch, JAX, whatever has DLPack). It is copied, as all
         arrays are, which may be on either.
-    triangles : array of integers, shape (M, 3)
+    triangles : array of integers, shape (M, 3) or (M, 4)
+        Quadrilaterals, with -1 in the last place of a triangle, follow on the CPU, with points in memory of the host.
     regions, fixed, other_cells, **options
         As for :func:`trismooth.smooth`, with other defaults: ``method`` is "mean-ratio", ``target`` "input-shape" (the
-        reference's shapes; "uniform" aims at equilateral triangles), ``power`` 8, ``size_weight`` 0.3, ``max_sweeps`` 1000,
+        reference's shapes; "uniform" aims at equilateral triangles and squares), ``power`` 8, ``size_weight`` 0.3, ``max_sweeps`` 1000,
         ``steady`` True (moves die away towards the least gain that is worth one, so that the mesh goes as smoothly as its
         boundary). Nothing slides.
 
@@ -165,7 +166,7 @@ class MovingMesh:
     Warns
     -----
     MeshWarning
-        Of triangles that are listed again.
+        Of elements that are listed again.
 
     Examples
     --------
@@ -224,7 +225,7 @@ class MovingMesh:
 
     @property
     def n_triangles(self) -> int:
-        """The number of triangles, each counted once."""
+        """The number of triangles, and quadrilaterals, each counted once."""
         return int(self._moving.triangle_count)
 
     @property
@@ -274,7 +275,7 @@ class MovingMesh:
         Warns
         -----
         MeshWarning
-            Where triangles of the result are inverted or degenerate, where the boundary has folded, or crosses or touches
+            Where elements of the result are inverted or degenerate, where the boundary has folded, or crosses or touches
             itself, where the mesh lies over itself, and where sweeps ended at ``max_sweeps`` or ``time_limit``; in the
             first step of a mesh also what its layers are. Made an error by a filter, or interrupted, the call has not
             happened: no array has changed, nor :attr:`points`.

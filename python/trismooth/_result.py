@@ -19,9 +19,14 @@ class NotComputed(AttributeError):
 NOT_MENDED = "the untangling could not mend more, and elements whose vertices are all held stay as they are"
 
 
+def kind_of(outcome: _core.Outcome) -> str:
+    """What its elements are called: "triangle" where all are."""
+    return "triangle" if outcome.quadrilaterals == 0 else "element"
+
+
 def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     """What to say of elements that are not valid in the result: a sentence, or none."""
-    name = "triangle" if outcome.quadrilaterals == 0 else "element"
+    name = kind_of(outcome)
     flat = "without area" if outcome.quadrilaterals == 0 else "without area or with a corner in line"
     kinds = ((outcome.inverted, f"inverted {name}{{}}"), (outcome.degenerate, f"{name}{{}} {flat}"))
     found = [f"{count:,} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]

@@ -59,7 +59,7 @@ class FakeBackend final : public trismooth::Backend {
                                       trismooth::cpu_backend().prepare(std::move(mesh), elements, local, on_cpu));
   }
 
-  bool takes_quadrilaterals() const override { return true; }
+  bool takes_quadrilaterals() const override { return false; }
 
   std::optional<trismooth::MeshRings> find_rings(std::span<const trismooth::Point2<double>> points,
                                                  std::span<const trismooth::Triangle> triangles,
