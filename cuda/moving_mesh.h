@@ -26,11 +26,11 @@ namespace trismooth::cuda {
 class [[nodiscard]] MovingMesh {
  public:
   /// `reference`: one point for every vertex, `triangles`, `constraints`: in memory of the host, as
-  /// trismooth::MovingMesh has them, but for quadrilaterals, which follow there alone; copied. The stream stays the caller's and outlives the mesh. `options.backend` and
-  /// `options.topology` mean nothing here. Throws what trismooth::MovingMesh throws, std::invalid_argument for four vertex
-  /// numbers an element, and DeviceError where there is no
-  /// device, its memory does not suffice, or a call fails. Complexity: linear, but for sorting the edges of each
-  /// vertex.
+  /// trismooth::MovingMesh has them, but for quadrilaterals, which follow there alone; copied. The stream stays the
+  /// caller's and outlives the mesh. `options.backend` and `options.topology` mean nothing here. Throws what
+  /// trismooth::MovingMesh throws, std::invalid_argument for four vertex numbers an element, and DeviceError where
+  /// there is no device, its memory does not suffice, or a call fails. Complexity: linear, but for sorting the edges of
+  /// each vertex.
   MovingMesh(const ConstPointView& reference, const IndexView& triangles, const Constraints& constraints = {},
              const SmoothingOptions& options = moving_options(), cudaStream_t stream = nullptr);
   MovingMesh(MovingMesh&&) noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 #include <string>
 #include <unordered_map>
 
@@ -25,19 +26,20 @@ struct Named {
 /// The joins with every rank, in an order that both sides have.
 std::vector<std::vector<ComponentJoin>> find_joins(const Overlap& overlap, const TriangleComponents& components,
                                                    const Communicator& ranks) {
-  // A triangle is known to those who own its vertices.
+  // An element is known to those who own its vertices.
   auto named = lists_by_rank<Named>(ranks);
-  for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
-    std::array<std::int32_t, 3> owners{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      owners[i] = overlap.owners[static_cast<std::size_t>(overlap.triangles[t][i])];
-    }
-    std::ranges::sort(owners);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (owners[i] != ranks.rank() && (i == 0 || owners[i] != owners[i - 1])) {
-        named[static_cast<std::size_t>(owners[i])].push_back({components.component[t], components.parity[t]});
+  std::size_t t = 0;
+  for (const std::span<const std::int32_t> corners : overlap.elements()) {
+    std::array<std::int32_t, 4> told{};
+    auto end = told.begin();
+    for (const std::int32_t v : corners) {
+      const std::int32_t owner = overlap.owners[static_cast<std::size_t>(v)];
+      if (owner != ranks.rank() && std::find(told.begin(), end, owner) == end) {
+        *end++ = owner;
+        named[static_cast<std::size_t>(owner)].push_back({components.component[t], components.parity[t]});
       }
     }
+    ++t;
   }
   const ByRank<Named> others = ranks.exchanged(std::vector(named));
   std::vector<std::vector<ComponentJoin>> joins(named.size());
@@ -92,7 +94,7 @@ void add(OrientationVotes& all, const OrientationVotes& some) {
 ComponentLabels::ComponentLabels(const Overlap& overlap, const TriangleComponents& components,
                                  const Communicator& ranks)
     : labels_(static_cast<std::size_t>(components.components), {none, 0}) {
-  for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < components.component.size(); ++t) {
     // The first one has the lowest id.
     if (ComponentLabel& label = labels_[static_cast<std::size_t>(components.component[t])]; label.triangle == none) {
       label.triangle = overlap.triangle_ids[t];
@@ -119,8 +121,8 @@ ComponentLabels::ComponentLabels(const Overlap& overlap, const TriangleComponent
     }
     ranks.on_all([&] {
       if (is_contradicted) {
-        throw MeshError(
-            "triangles that are connected across ranks cannot be oriented consistently (a one-sided surface)");
+        throw MeshError("triangles that are connected across ranks cannot be oriented consistently (" +
+                        std::string(why_one_sided(overlap)) + ")");
       }
     });
     if (!ranks.any(!hooks.empty())) {
@@ -152,14 +154,13 @@ ByRank<ComponentLabel> ComponentLabels::told_over(const std::vector<std::vector<
 std::vector<std::uint8_t> ComponentLabels::reversed(const Overlap& overlap, const TriangleComponents& components,
                                                     std::span<const Point2<double>> points, const Communicator& ranks,
                                                     Workers& workers) const {
-  // Every triangle has its say on one rank: that of its lowest vertex.
-  std::vector<std::uint8_t> left_out(overlap.triangles.size());
+  // Every element has its say on one rank.
+  std::vector<std::uint8_t> left_out(components.component.size());
   for (std::size_t t = 0; t < left_out.size(); ++t) {
-    const auto& [a, b, c] = overlap.triangles[t];
-    left_out[t] = overlap.is_own(std::min({a, b, c})) ? 0 : 1;
+    left_out[t] = overlap.counts(t) ? 0 : 1;
   }
-  const std::vector<OrientationVotes> votes =
-      orientation_votes(components, overlap.triangles, points, left_out, workers);
+  const std::vector<OrientationVotes> votes = overlap.elements().visit(
+      [&](const auto& elements) { return orientation_votes(components, elements, points, left_out, workers); });
   auto sent = lists_by_rank<SentVotes>(ranks);
   for (std::size_t c = 0; c < labels_.size(); ++c) {
     sent[static_cast<std::size_t>(home_of(labels_[c].triangle, ranks))].push_back(
@@ -185,7 +186,7 @@ std::vector<std::uint8_t> ComponentLabels::reversed(const Overlap& overlap, cons
     const auto home = static_cast<std::size_t>(home_of(labels_[c].triangle, ranks));
     flips[c] = static_cast<std::uint8_t>(told[home][next[home]++] ^ labels_[c].parity);
   }
-  std::vector<std::uint8_t> reversed(overlap.triangles.size());
+  std::vector<std::uint8_t> reversed(components.component.size());
   for (std::size_t t = 0; t < reversed.size(); ++t) {
     reversed[t] =
         static_cast<std::uint8_t>(components.parity[t] ^ flips[static_cast<std::size_t>(components.component[t])]);

@@ -17,14 +17,14 @@ namespace trismooth::mpi {
 /// What a component of a rank's overlap is called.
 struct ComponentLabel {
   std::int64_t triangle;
-  std::uint8_t parity;  ///< 1 where the lowest triangle here is listed against that of the label
+  std::uint8_t parity;  ///< 1 where the lowest element here is listed against that of the label
 };
 
-/// A component here and one on another rank that have a triangle in common.
+/// A component here and one on another rank that have an element in common.
 struct ComponentJoin {
   std::int32_t own;
   std::int32_t other;
-  std::uint8_t parity;  ///< 1 where their lowest triangles are listed against each other
+  std::uint8_t parity;  ///< 1 where their lowest elements are listed against each other
 
   /// A key that both ranks give the join. Local.
   [[nodiscard]] std::tuple<std::int32_t, std::int32_t, std::uint8_t> key(bool own_first) const {
@@ -33,10 +33,10 @@ struct ComponentJoin {
 };
 
 /// Which components of a rank's overlap are parts of the same component of the whole mesh. Each has the id of its
-/// lowest triangle for a label.
+/// lowest element for a label.
 class ComponentLabels {
  public:
-  /// Of no triangle. Local.
+  /// Of no element. Local.
   ComponentLabels() = default;
 
   /// `components`: those of the overlap, found without edges between two ghosts. Collective. Throws MeshError on all
@@ -44,7 +44,7 @@ class ComponentLabels {
   /// with the square of the logarithm of how many parts of a component there are.
   ComponentLabels(const Overlap& overlap, const TriangleComponents& components, const Communicator& communicator);
 
-  /// Orientation::reversed of every triangle of the overlap, as orient() finds it for the whole mesh. `points` are in
+  /// Orientation::reversed of every element of the overlap, as orient() finds it for the whole mesh. `points` are in
   /// the local frame. Collective.
   std::vector<std::uint8_t> reversed(const Overlap& overlap, const TriangleComponents& components,
                                      std::span<const Point2<double>> points, const Communicator& communicator,

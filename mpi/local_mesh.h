@@ -9,13 +9,14 @@
 
 namespace trismooth::mpi {
 
-/// What a rank without triangles has of them.
+/// What a rank without elements has of them.
 inline const std::vector<std::int32_t> no_triangles;
 
 /// What a rank has of a mesh, which may be nothing. All views; the caller keeps the memory until the function returns
-/// that takes them.
+/// that takes them. What is said of triangles holds for quadrilaterals, too: ids count elements of either kind.
 struct LocalMesh {
-  /// Three numbers of local vertices each, from 0, listed in either direction.
+  /// Three numbers of local vertices each, from 0, listed in either direction; or four where quadrilaterals are among
+  /// them, corners in turn, of which the last is then -1 for a triangle. Ranks need not list them alike.
   IndexView triangles{no_triangles};
   /// One for each local vertex: its number in the whole mesh, from 0, the same on every rank that has it. Results
   /// depend on them as those of smooth() do on the numbers of vertices. Those that are not there are vertices of no

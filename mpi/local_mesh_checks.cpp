@@ -66,12 +66,12 @@ void check_triangle_ids(std::span<const std::int64_t> ids) {
 
 }  // namespace
 
-void check_local_mesh(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
-                      int ranks) {
-  check_mesh_size(std::ssize(mesh.vertex_ids), std::ssize(triangles));
+void check_local_mesh(const LocalMesh& mesh, const ElementList& elements, const Constraints& constraints, int ranks) {
+  const auto element_count = static_cast<std::int64_t>(elements.size());
+  check_mesh_size(std::ssize(mesh.vertex_ids), element_count, elements.are_triangles() ? 3 : 4);
   const auto vertices = static_cast<std::int32_t>(mesh.vertex_ids.size());
-  check_triangles(vertices, triangles);
-  check_constraints(constraints, vertices, std::ssize(triangles));
+  elements.visit([&](const auto& listed) { check_triangles(vertices, listed); });
+  check_constraints(constraints, vertices, element_count);
   check_ids(mesh.vertex_ids);
   if (!mesh.owners.empty()) {
     require_length(mesh.owners.size(), mesh.vertex_ids.size(), "owners", "local vertices");
@@ -84,10 +84,10 @@ void check_local_mesh(const LocalMesh& mesh, std::span<const Triangle> triangles
     }
   }
   if (!mesh.ghost_triangles.empty()) {
-    require_length(mesh.ghost_triangles.size(), triangles.size(), "ghost_triangles", "local triangles");
+    require_length(mesh.ghost_triangles.size(), elements.size(), "ghost_triangles", "local triangles");
   }
   if (!mesh.triangle_ids.empty()) {
-    require_length(mesh.triangle_ids.size(), triangles.size(), "triangle_ids", "local triangles");
+    require_length(mesh.triangle_ids.size(), elements.size(), "triangle_ids", "local triangles");
     check_triangle_ids(mesh.triangle_ids);
   }
 }

@@ -138,12 +138,6 @@ class MovingMesh::Implementation {
   std::size_t number(std::size_t v) const { return static_cast<std::size_t>(numbers_[v]); }
 
   void make(std::span<const Point2<double>> all, const SmoothingOptions& options) {
-    std::vector<Triangle> triangles = overlap_.triangles;
-    for (Triangle& triangle : triangles) {
-      for (std::int32_t& corner : triangle) {
-        corner = numbers_[static_cast<std::size_t>(corner)];
-      }
-    }
     std::vector<std::int32_t> fixed;
     std::vector<std::uint8_t> other_cells(vertex_count());
     for (std::size_t v = 0; v < overlap_.named.size(); ++v) {
@@ -153,8 +147,16 @@ class MovingMesh::Implementation {
       other_cells[number(v)] = overlap_.named[v] & hold::other_cell;
     }
     const std::vector<Point2<double>> reference = whole(all);
-    moving_.emplace(reference, triangles,
-                    Constraints{.fixed_ids = fixed, .other_cells = other_cells, .regions = overlap_.regions}, options);
+    const Constraints constraints{.fixed_ids = fixed, .other_cells = other_cells, .regions = overlap_.regions};
+    overlap_.elements().visit([&]<class Corners>(std::span<const Corners> listed) {
+      std::vector<Corners> elements(listed.begin(), listed.end());
+      for (auto& element : elements) {
+        for (std::int32_t& corner : element) {
+          corner = corner == no_corner ? no_corner : numbers_[static_cast<std::size_t>(corner)];
+        }
+      }
+      moving_.emplace(reference, elements, constraints, options);
+    });
   }
 
   std::size_t vertex_count() const { return numbers_.empty() ? 0 : number(numbers_.size() - 1) + 1; }

@@ -5,19 +5,23 @@
 #include <array>
 #include <optional>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "trismooth/base/hold.h"
 #include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/machine/release.h"
 #include "trismooth/base/machine/workers.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mpi/directory.h"
+#include "trismooth/mpi/element_exchange.h"
 #include "trismooth/mpi/local_mesh_checks.h"
 #include "trismooth/mpi/messenger.h"
-#include "trismooth/mpi/triangle_exchange.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth::mpi {
 
@@ -31,12 +35,33 @@ struct SentVertex {
   std::uint8_t named;
 };
 
+/// `elements`, all of them as Corners; `converted` has them where they are listed otherwise. As triangles: none is a
+/// quadrilateral.
+template <class Corners>
+std::span<const Corners> all_as(const ElementList& elements, std::vector<Corners>& converted) {
+  return elements.visit([&]<class Listed>(std::span<const Listed> listed) -> std::span<const Corners> {
+    if constexpr (std::is_same_v<Listed, Corners>) {
+      return listed;
+    } else {
+      converted.resize(listed.size());
+      std::ranges::transform(listed, converted.begin(), [](const Listed& element) {
+        Corners corners{};
+        corners.back() = no_corner;
+        std::copy_n(element.begin(), 3, corners.begin());
+        return corners;
+      });
+      return converted;
+    }
+  });
+}
+
+template <class Corners>
 class OverlapBuilder {
  public:
-  OverlapBuilder(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
+  OverlapBuilder(const LocalMesh& mesh, std::span<const Corners> elements, const Constraints& constraints,
                  bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers)
       : mesh_(mesh),
-        triangles_(triangles),
+        elements_(elements),
         constraints_(constraints),
         is_gathered_(is_gathered),
         ranks_(*communicator),
@@ -44,30 +69,30 @@ class OverlapBuilder {
         messenger_(std::make_shared<Messenger>(std::move(communicator))) {}
 
   Overlap run() {
-    ranks_.on_all([&] { check_local_mesh(mesh_, triangles_, constraints_, ranks_.size()); });
     require_agreement();
     owners_ = owners_of(mesh_.vertex_ids, mesh_.owners, ranks_);
     if (is_gathered_) {
       std::ranges::fill(owners_, 0);
     }
     send_vertices();
-    around_ = exchange_triangles(mesh_, triangles_, has_triangle_ids_, constraints_.regions, owners_, ranks_);
+    around_ = exchange_elements(mesh_, elements_, has_triangle_ids_, constraints_.regions, owners_, ranks_);
     overlap_.triangle_ids = std::move(around_.ids);
     overlap_.part.messenger = messenger_;
     number_vertices();
     join_flags();
-    list_triangles();
+    list_elements();
     ranks_.on_all([&] { check_repeated(); });
     list_callers();
     meet_neighbours();
     if (is_gathered_) {
       gather_lines();
     }
+    overlap_.listed = std::move(listed_elements_);
     return std::move(overlap_);
   }
 
  private:
-  /// What some ranks have and others not is an oversight: a rank without triangles or vertices does not count.
+  /// What some ranks have and others not is an oversight: a rank without elements or vertices does not count.
   void require_agreement() {
     const auto none_or_all = [&](bool has, bool could, const char* what) {
       const bool some = ranks_.any(has);
@@ -78,8 +103,8 @@ class OverlapBuilder {
       });
       return some;
     };
-    has_triangle_ids_ = none_or_all(!mesh_.triangle_ids.empty(), !triangles_.empty(), "triangle_ids");
-    has_regions_ = none_or_all(!constraints_.regions.empty(), !triangles_.empty(), "regions");
+    has_triangle_ids_ = none_or_all(!mesh_.triangle_ids.empty(), !elements_.empty(), "triangle_ids");
+    has_regions_ = none_or_all(!constraints_.regions.empty(), !elements_.empty(), "regions");
     none_or_all(!mesh_.owners.empty(), !mesh_.vertex_ids.empty(), "owners");
   }
 
@@ -110,16 +135,18 @@ class OverlapBuilder {
     listed_ = ranks_.exchanged(std::move(sent));
   }
 
-  /// Own vertices, whoever has them, and the corners of all triangles here.
+  /// Own vertices, whoever has them, and the corners of all elements here.
   void number_vertices() {
     std::size_t most = mesh_.vertex_ids.size() + around_.foreign.size();
     for (const auto& of_rank : listed_) {
       most += of_rank.size();
     }
-    std::vector<std::uint8_t> is_corner(mesh_.vertex_ids.size(), 0);  // of a triangle here
+    std::vector<std::uint8_t> is_corner(mesh_.vertex_ids.size(), 0);  // of an element here
     for (const std::int32_t place : around_.places) {
-      for (std::size_t k = 0; k < 3 && place >= 0; ++k) {
-        is_corner[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(place)][k])] = 1;
+      if (place >= 0) {
+        for (const std::int32_t v : corners_of(elements_[static_cast<std::size_t>(place)])) {
+          is_corner[static_cast<std::size_t>(v)] = 1;
+        }
       }
     }
     BulkVector<OwnedId> vertices;
@@ -178,16 +205,20 @@ class OverlapBuilder {
     release(named_);
   }
 
-  void list_triangles() {
-    overlap_.triangles.resize(around_.places.size());
+  void list_elements() {
+    listed_elements_.resize(around_.places.size());
     overlap_.regions.resize(has_regions_ ? around_.places.size() : 0);
     workers_.for_blocks(std::ssize(around_.places), overlap_grain, [&](std::int64_t begin, std::int64_t end) {
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
         const std::int32_t place = around_.places[i];
-        for (std::size_t k = 0; k < 3; ++k) {
-          overlap_.triangles[i][k] =
-              place >= 0 ? number_of_local_[static_cast<std::size_t>(triangles_[static_cast<std::size_t>(place)][k])]
-                         : number_of(around_.received[received_number(place)].vertices[k]);
+        if (place >= 0) {
+          std::ranges::transform(elements_[static_cast<std::size_t>(place)], listed_elements_[i].begin(),
+                                 [this](std::int32_t v) {
+                                   return v == no_corner ? no_corner : number_of_local_[static_cast<std::size_t>(v)];
+                                 });
+        } else {
+          std::ranges::transform(around_.received[received_number(place)].vertices, listed_elements_[i].begin(),
+                                 [this](std::int64_t id) { return id == no_corner ? no_corner : number_of(id); });
         }
         if (has_regions_) {
           overlap_.regions[i] = place >= 0 ? constraints_.regions[static_cast<std::size_t>(place)]
@@ -209,7 +240,7 @@ class OverlapBuilder {
     return static_cast<std::int32_t>(std::ranges::lower_bound(overlap_.ids, id) - overlap_.ids.begin());
   }
 
-  /// A triangle that two ranks have was not called a copy by either. (Where triangles have ids, one that is there twice
+  /// An element that two ranks have was not called a copy by either. (Where elements have ids, one that is there twice
   /// is meant to be.)
   void check_repeated() const {
     if (has_triangle_ids_ || around_.received.empty()) {
@@ -217,15 +248,16 @@ class OverlapBuilder {
     }
     std::vector<std::uint8_t> is_at_received(overlap_.ids.size(), 0);
     for (std::size_t i = 0; i < around_.places.size(); ++i) {
-      for (std::size_t k = 0; k < 3 && around_.places[i] < 0; ++k) {
-        is_at_received[static_cast<std::size_t>(overlap_.triangles[i][k])] = 1;
+      if (around_.places[i] < 0) {
+        for (const std::int32_t v : corners_of(listed_elements_[i])) {
+          is_at_received[static_cast<std::size_t>(v)] = 1;
+        }
       }
     }
-    using Corners = std::array<std::int32_t, 3>;
     std::vector<std::pair<Corners, std::int32_t>> sorted;  // and the rank that has it
     for (std::size_t i = 0; i < around_.places.size(); ++i) {
-      Corners corners = overlap_.triangles[i];
-      if (std::ranges::all_of(corners,
+      Corners corners = listed_elements_[i];
+      if (std::ranges::all_of(corners_of(corners),
                               [&](std::int32_t v) { return is_at_received[static_cast<std::size_t>(v)] != 0; })) {
         std::ranges::sort(corners);
         sorted.emplace_back(corners, around_.places[i] >= 0
@@ -236,14 +268,22 @@ class OverlapBuilder {
     std::ranges::sort(sorted);
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       if (sorted[i].first == sorted[i - 1].first && sorted[i].second != sorted[i - 1].second) {
-        const auto id = [&](std::size_t k) {
-          return std::to_string(overlap_.ids[static_cast<std::size_t>(sorted[i].first[k])]);
-        };
-        throw std::invalid_argument("the triangle of vertex ids " + id(0) + ", " + id(1) + " and " + id(2) +
-                                    " is on rank " + std::to_string(sorted[i - 1].second) + " and on rank " +
-                                    std::to_string(sorted[i].second) + "; copies are to be in ghost_triangles");
+        throw std::invalid_argument(name_of(sorted[i].first) + " is on rank " + std::to_string(sorted[i - 1].second) +
+                                    " and on rank " + std::to_string(sorted[i].second) +
+                                    "; copies are to be in ghost_triangles");
       }
     }
+  }
+
+  /// "the triangle of vertex ids 1, 2 and 3", of corners in ascending order.
+  std::string name_of(Corners corners) const {
+    if (corners.front() == no_corner) {
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+    }
+    const std::span<const std::int32_t> all = corners_of(corners);
+    const auto id = [&](std::int32_t v) { return std::to_string(overlap_.ids[static_cast<std::size_t>(v)]); };
+    return (all.size() == 3 ? "the triangle of vertex ids " : "the quadrilateral of vertex ids ") +
+           list_text(all.first(all.size() - 1), id) + " and " + id(all.back());
   }
 
   /// Tells the owners of ghosts that this rank has them.
@@ -309,7 +349,7 @@ class OverlapBuilder {
   }
 
   const LocalMesh& mesh_;
-  std::span<const Triangle> triangles_;
+  std::span<const Corners> elements_;
   const Constraints& constraints_;
   bool is_gathered_;
   const Communicator& ranks_;
@@ -323,27 +363,57 @@ class OverlapBuilder {
   ByRank<std::int32_t> to_owners_;            ///< as Callers has them
   ByRank<std::int32_t> from_callers_;         ///< likewise
   ByRank<SentVertex> listed_;                 ///< own vertices that other ranks have
-  TrianglesAround around_;
+  ElementsAround<Corners> around_;
+  std::vector<Corners> listed_elements_;  ///< as Overlap::listed
   Overlap overlap_;
 };
 
 }  // namespace
 
-Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
+ElementList elements_of(const LocalMesh& mesh, OwnElements& converted) {
+  const std::int64_t vertices = std::ssize(mesh.vertex_ids);
+  return with_elements(mesh.triangles, vertices, [&](const auto& listed, auto& own) {
+    if (listed.data() != own.data()) {
+      return ElementList(listed);
+    }
+    converted = std::move(own);
+    return converted.list();
+  });
+}
+
+bool has_quadrilaterals(const ElementList& elements, const Communicator& ranks) {
+  const auto is_quadrilateral = [](const auto& corners) { return corner_count(corners) == 4; };
+  return ranks.any(elements.visit([&](const auto& listed) { return std::ranges::any_of(listed, is_quadrilateral); }));
+}
+
+std::string_view why_one_sided(const Overlap& overlap) {
+  return overlap.elements().are_triangles()
+             ? "a one-sided surface"
+             : "a one-sided surface, or a quadrilateral whose corners are not listed in turn";
+}
+
+Overlap build_overlap(const LocalMesh& mesh, const ElementList& elements, const Constraints& constraints,
                       bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers) {
-  return OverlapBuilder(mesh, triangles, constraints, is_gathered, std::move(communicator), workers).run();
+  const Communicator& ranks = *communicator;
+  ranks.on_all([&] { check_local_mesh(mesh, elements, constraints, ranks.size()); });
+  const auto built = [&]<class Corners>(std::vector<Corners> converted) {
+    std::span<const Corners> listed;
+    ranks.on_all([&] { listed = all_as(elements, converted); });
+    return OverlapBuilder(mesh, listed, constraints, is_gathered, std::move(communicator), workers).run();
+  };
+  return has_quadrilaterals(elements, ranks) ? built(std::vector<MixedElement>()) : built(std::vector<Triangle>());
 }
 
 Overlap build_overlap(const LocalMesh& mesh, const Constraints& constraints, bool is_gathered,
                       const std::shared_ptr<const Communicator>& communicator, int threads) {
-  std::vector<Triangle> converted;
-  std::span<const Triangle> triangles;
+  OwnElements converted;
+  ElementList elements;
   std::optional<Workers> workers;
   communicator->on_all([&] {
     workers.emplace(threads);
-    triangles = mesh.triangles.triangles(std::ssize(mesh.vertex_ids), converted);
+    elements = elements_of(mesh, converted);
   });
-  return build_overlap(mesh, triangles, constraints, is_gathered, communicator, *workers);
+  return build_overlap(mesh, elements, constraints, is_gathered, communicator, *workers);
 }
 
 }  // namespace trismooth::mpi

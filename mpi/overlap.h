@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
+#include <string_view>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/triangle_view.h"
 #include "trismooth/mpi/ascending_ids.h"
 #include "trismooth/mpi/callers.h"
@@ -22,15 +25,20 @@ class Workers;
 
 namespace trismooth::mpi {
 
-/// The vertices that a rank owns, with all of their triangles and these triangles' other vertices, its ghosts: one
-/// layer, which is what updates of own vertices need. Vertices are numbered in the order of their ids, triangles in
-/// that of theirs; so all that depends on the order of numbers in the whole mesh is found from those here.
+/// The elements that a rank hands in, as the library holds them: the caller's own memory where it has that form, else
+/// `converted`. Local. Throws MeshError as IndexView::triangles() does. Complexity: constant or linear.
+ElementList elements_of(const LocalMesh& mesh, OwnElements& converted);
+
+/// The vertices that a rank owns, with all of their elements and these elements' other vertices, its ghosts: one layer,
+/// which is what updates of own vertices need. Vertices are numbered in the order of their ids, elements in that of
+/// theirs; so all that depends on the order of numbers in the whole mesh is found from those here.
 struct Overlap {
   std::vector<std::int64_t> ids;
   std::vector<std::int32_t> owners;  ///< ranks
-  std::vector<Triangle> triangles;
-  AscendingIds triangle_ids;
-  std::vector<std::int32_t> regions;  ///< one a triangle; empty: nobody has any
+  /// The elements. As MixedElement, on all ranks, where any rank has a quadrilateral.
+  OwnElements listed;
+  AscendingIds triangle_ids;          ///< one an element
+  std::vector<std::int32_t> regions;  ///< one an element; empty: nobody has any
   /// One a vertex, bits hold::named and hold::other_cell; of ghosts 0.
   std::vector<std::uint8_t> named;
   MeshPart part;  ///< but for what colours are
@@ -42,22 +50,32 @@ struct Overlap {
 
   Callers callers;
 
+  /// The elements, for as long as they are there. Local.
+  ElementList elements() const { return listed.list(); }
+  /// Whether this rank owns the first vertex of an element: one of the ranks that have it does. Local.
+  bool counts(std::size_t element) const { return is_own(std::ranges::min(elements()[element])); }
   /// Whether this rank owns a vertex of the overlap. Local.
   bool is_own(std::int32_t v) const { return part.ghosts[static_cast<std::size_t>(v)] == 0; }
   /// Vertices of the overlap, ghosts among them. Local.
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(ids.size()); }
 };
 
-/// Builds it from what all ranks have. `triangles`: those of `mesh`. `is_gathered`: rank 0 owns all vertices, whatever
+/// Whether any rank has a quadrilateral among `elements`. Collective. Complexity: linear.
+bool has_quadrilaterals(const ElementList& elements, const Communicator& ranks);
+
+/// What makes elements impossible to orient, for people. Local.
+std::string_view why_one_sided(const Overlap& overlap);
+
+/// Builds it from what all ranks have. `elements`: those of `mesh`. `is_gathered`: rank 0 owns all vertices, whatever
 /// `mesh` says. Collective. Throws MeshError and std::invalid_argument on all ranks, for what is wrong on one of them
 /// or between them: as SmoothingPlan does, and for ids that are negative or there twice, owners that are no ranks or
-/// that ranks disagree about, and triangles that two ranks have and none calls a ghost. Complexity: n log n in what the
+/// that ranks disagree about, and elements that two ranks have and none calls a ghost. Complexity: n log n in what the
 /// rank has.
-Overlap build_overlap(const LocalMesh& mesh, std::span<const Triangle> triangles, const Constraints& constraints,
+Overlap build_overlap(const LocalMesh& mesh, const ElementList& elements, const Constraints& constraints,
                       bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers);
 
-/// build_overlap() of the triangles that `mesh` has, on so many threads. Collective. Throws, and complexity, as with
-/// triangles that have been read.
+/// build_overlap() of the elements that `mesh` has, on so many threads. Collective. Throws, and complexity, as with
+/// elements that have been read.
 Overlap build_overlap(const LocalMesh& mesh, const Constraints& constraints, bool is_gathered,
                       const std::shared_ptr<const Communicator>& communicator, int threads);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "trismooth/base/hold.h"
@@ -14,10 +15,12 @@
 #include "trismooth/mpi/same_options.h"
 #include "trismooth/mpi/shared_frame.h"
 #include "trismooth/mpi/shared_result.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/invalid_triangles.h"
 #include "trismooth/smoothing/limited.h"
+#include "trismooth/smoothing/noted_smoother.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/rings/fixed_vertices.h"
 #include "trismooth/smoothing/rings/one_rings.h"
@@ -45,10 +48,12 @@ void require_supported(const SmoothingOptions& options, const Constraints& const
 /// What SmoothingPlan says of a component's triangles in the numbers of this rank's overlap says nothing to the caller.
 TriangleTopology connected(const Overlap& overlap, Workers& workers) {
   try {
-    return connect_triangles(overlap.vertex_count(), overlap.triangles, workers, overlap.part.ghosts);
+    return overlap.elements().visit([&](const auto& elements) {
+      return connect_triangles(overlap.vertex_count(), elements, workers, overlap.part.ghosts);
+    });
   } catch (const MeshError&) {
-    throw MeshError(
-        "triangles that are connected with each other cannot be oriented consistently (a one-sided surface)");
+    throw MeshError("triangles that are connected with each other cannot be oriented consistently (" +
+                    std::string(why_one_sided(overlap)) + ")");
   }
 }
 
@@ -72,23 +77,46 @@ std::unique_ptr<OverlapSmoother> make_overlap_smoother(std::shared_ptr<const Com
                                                        const LocalMesh& mesh, const Constraints& constraints,
                                                        const SmoothingOptions& options, Gather gather,
                                                        OverlapSmoother::Owners owners) {
-  const SmoothingOptions agreed = agreed_options(options, constraints, gather, *communicator);
+  SmoothingOptions agreed = agreed_options(options, constraints, gather, *communicator);
   if (constraints.slide.along != Slide::off) {
     owners = OverlapSmoother::Owners::first;
   }
+  OwnElements converted;
+  ElementList elements;
+  std::optional<Workers> workers;
+  communicator->on_all([&] {
+    workers.emplace(agreed.threads);
+    elements = elements_of(mesh, converted);
+  });
+  std::string note;
+  if (const Backend& backend = backend_of(agreed);
+      !backend.takes_quadrilaterals_in_parts() && has_quadrilaterals(elements, *communicator)) {
+    note = "quadrilaterals are smoothed in pieces by the CPUs of the ranks, not by backend '" + backend.name() + "'";
+    communicator->on_all([&] {
+      if (gather == Gather::never) {
+        throw std::invalid_argument(
+            note + ": take the CPU's, or have them gathered on one rank (Gather::where_needed), whose CPU does it");
+      }
+    });
+    note += ": the CPU of rank 0 has smoothed all";
+    agreed.backend = nullptr;
+    owners = OverlapSmoother::Owners::first;
+  }
   Overlap overlap =
-      build_overlap(mesh, constraints, owners == OverlapSmoother::Owners::first, communicator, agreed.threads);
+      build_overlap(mesh, elements, constraints, owners == OverlapSmoother::Owners::first, communicator, *workers);
   return std::make_unique<OverlapSmoother>(std::move(communicator), std::move(overlap), agreed, constraints.slide,
-                                           gather, owners);
+                                           gather, owners, std::move(note));
 }
 
 OverlapSmoother::OverlapSmoother(std::shared_ptr<const Communicator> communicator, Overlap overlap,
-                                 const SmoothingOptions& options, Sliding slide, Gather gather, Owners owners)
+                                 const SmoothingOptions& options, Sliding slide, Gather gather, Owners owners,
+                                 std::string note)
     : communicator_(std::move(communicator)),
       options_(options),
       slide_(std::move(slide)),
       gather_(gather),
       is_gathered_(owners == Owners::first),
+      note_(std::move(note)),
       overlap_(std::move(overlap)) {
   const Communicator& ranks = *communicator_;
   ranks.on_all([&] { workers_.emplace(options_.threads); });
@@ -107,13 +135,16 @@ OverlapSmoother::OverlapSmoother(std::shared_ptr<const Communicator> communicato
   points_.emplace(overlap_, *ghosts_, ranks, *workers_);
   ranks.on_all([&] {
     topology_ = connected(overlap_, *workers_);
-    fixed_ = fixed_vertices(*topology_, overlap_.triangles, {.regions = overlap_.regions}, *workers_);
+    fixed_ = overlap_.elements().visit([&](const auto& elements) {
+      return fixed_vertices(*topology_, elements, {.regions = overlap_.regions}, *workers_);
+    });
     for (std::size_t v = 0; v < fixed_.size(); ++v) {
       fixed_[v] |= overlap_.named[v];
     }
   });
   ghosts_->update(std::span(fixed_));
   labels_ = ComponentLabels(overlap_, components(), ranks);
+  count_quadrilaterals();
   release(overlap_.owners);
   count_free();
   ranks.on_all([&] {
@@ -121,6 +152,18 @@ OverlapSmoother::OverlapSmoother(std::shared_ptr<const Communicator> communicato
       throw std::invalid_argument("the mean-ratio method adds up areas of 2^32 - 1 free vertices at most");
     }
   });
+}
+
+void OverlapSmoother::count_quadrilaterals() {
+  const ElementList elements = overlap_.elements();
+  if (elements.are_triangles()) {
+    return;
+  }
+  std::int64_t own = 0;
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    own += elements[e].size() == 4 && overlap_.counts(e) ? 1 : 0;
+  }
+  quadrilaterals_ = communicator_->sum(own);
 }
 
 void OverlapSmoother::count_free() {
@@ -141,8 +184,9 @@ void OverlapSmoother::find_layers(std::span<const Point2<double>> local, std::sp
       own_slide.lines = overlap_.lines;
       own_slide.line_tags = overlap_.line_tags;
       own_slide.links = overlap_.links;
-      slidable_ =
-          find_slidable(overlap_.triangles, fixed_, {.regions = overlap_.regions, .slide = own_slide}, *workers_);
+      slidable_ = overlap_.elements().visit([&](const auto& elements) {
+        return find_slidable(elements, fixed_, {.regions = overlap_.regions, .slide = own_slide}, *workers_);
+      });
     }
   });
 }
@@ -167,6 +211,7 @@ SmoothingResult OverlapSmoother::smooth(const PointView& points, Storage storage
   }
   SmoothingResult result = smoothed(mine, stored, frame);
   result.layers = layers_;
+  result.quadrilaterals = quadrilaterals_;
   if (result.reverted_vertices > 0) {
     result.reverted = overlap_.callers.named(result.reverted, *communicator_);
   }
@@ -195,7 +240,8 @@ void OverlapSmoother::make_ready(const LocalFrame& frame, std::span<const Point2
     if (!topology_) {
       topology_ = connected(overlap_, *workers_);
     }
-    mesh.rings = one_rings(*topology_, overlap_.triangles, reversed_, without_ring, *workers_);
+    mesh.rings = overlap_.elements().visit(
+        [&](const auto& elements) { return one_rings(*topology_, elements, reversed_, without_ring, *workers_); });
     // It is found again should a component be listed the other way round: that is rare, and it takes as much memory
     // as the rings do.
     components_ = std::move(static_cast<TriangleComponents&>(*topology_));
@@ -209,7 +255,10 @@ void OverlapSmoother::make_ready(const LocalFrame& frame, std::span<const Point2
   mesh.reversed = reversed_;
   mesh.part = std::shared_ptr<const MeshPart>(std::shared_ptr<void>(), &overlap_.part);
   const auto prepare = [&] {
-    smoother_ = backend_of(options_).prepare(std::move(mesh), overlap_.triangles, local, used_options());
+    smoother_ = backend_of(options_).prepare(std::move(mesh), overlap_.elements(), local, used_options());
+    if (!note_.empty()) {
+      smoother_ = std::make_unique<NotedSmoother>(std::move(smoother_), note_);
+    }
   };
   if (is_gathered_) {
     communicator_->on_all([&] {
@@ -313,13 +362,11 @@ SmoothingResult OverlapSmoother::smoothed_in_pieces(std::span<Point2<double>> mi
                                                     const LocalFrame& frame) {
   SmoothingResult result = smoother_->smooth(mine, stored, frame);
   ghosts_->update(mine);
-  count_invalid(
-      overlap_.triangles, reversed_, [&](std::int32_t v) { return frame.enter(mine[v]); },
-      [&](std::size_t t) {
-        const auto& [a, b, c] = overlap_.triangles[t];
-        return overlap_.is_own(std::min({a, b, c}));
-      },
-      *workers_, result);
+  overlap_.elements().visit([&](const auto& elements) {
+    count_invalid(
+        elements, reversed_, [&](std::int32_t v) { return frame.enter(mine[v]); },
+        [&](std::size_t t) { return overlap_.is_own(std::ranges::min(corners_of(elements[t]))); }, *workers_, result);
+  });
   result.reverted_vertices = communicator_->sum(result.reverted_vertices);
   result.inverted = communicator_->sum(result.inverted);
   result.degenerate = communicator_->sum(result.degenerate);
@@ -332,8 +379,10 @@ SmoothingResult OverlapSmoother::smoothed_here(std::span<Point2<double>> mine, S
   communicator_->on_all([&] {
     if (communicator_->rank() == 0) {
       result = smoother_->smooth(mine, stored, frame);
-      count_invalid(
-          overlap_.triangles, reversed_, [&](std::int32_t v) { return frame.enter(mine[v]); }, *workers_, result);
+      overlap_.elements().visit([&](const auto& elements) {
+        count_invalid(
+            elements, reversed_, [&](std::int32_t v) { return frame.enter(mine[v]); }, *workers_, result);
+      });
     }
   });
   share_result(result, *communicator_);
@@ -342,10 +391,9 @@ SmoothingResult OverlapSmoother::smoothed_here(std::span<Point2<double>> mine, S
 
 SmoothingResult OverlapSmoother::smoothed_gathered(std::span<Point2<double>> mine, Storage stored) {
   if (gathered_ == nullptr) {
-    std::vector<std::uint8_t> is_copy(overlap_.triangles.size());
+    std::vector<std::uint8_t> is_copy(overlap_.elements().size());
     for (std::size_t t = 0; t < is_copy.size(); ++t) {
-      const auto& [a, b, c] = overlap_.triangles[t];
-      is_copy[t] = overlap_.is_own(std::min({a, b, c})) ? 0 : 1;
+      is_copy[t] = overlap_.counts(t) ? 0 : 1;
     }
     std::vector<std::uint8_t> named(overlap_.named.size());
     std::vector<std::uint8_t> in_other_cell(overlap_.named.size());
@@ -354,7 +402,8 @@ SmoothingResult OverlapSmoother::smoothed_gathered(std::span<Point2<double>> min
       in_other_cell[v] = overlap_.named[v] & hold::other_cell;
     }
     const std::vector<std::int64_t> triangle_ids = overlap_.triangle_ids.listed();
-    const LocalMesh mesh{overlap_.triangles, overlap_.ids, {}, is_copy, triangle_ids};
+    const IndexView elements(overlap_.elements());
+    const LocalMesh mesh{elements, overlap_.ids, {}, is_copy, triangle_ids};
     SmoothingOptions options = used_options();
     options.layers = Layers::smooth;  // they are among those named
     options.mean_ratio.target_lengths = std::span(lengths_).first(has_lengths_ ? overlap_.ids.size() : 0);

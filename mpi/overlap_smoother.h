@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "trismooth/base/machine/bulk_memory.h"
@@ -37,10 +38,11 @@ class OverlapSmoother {
   /// Whether rank 0 owns all vertices, and smooths alone.
   enum class Owners : std::uint8_t { ranks, first };
 
-  /// `options`: see agreed_options(). `slide`: what Constraints::slide was where rank 0 owns all; lines and links are
-  /// the overlap's. Collective.
+  /// `options`: see agreed_options(); their backend takes quadrilaterals in parts, where the overlap has any. `slide`:
+  /// what Constraints::slide was where rank 0 owns all; lines and links are the overlap's. `note`: what the user is to
+  /// know of the backend. Collective.
   OverlapSmoother(std::shared_ptr<const Communicator> communicator, Overlap overlap, const SmoothingOptions& options,
-                  Sliding slide, Gather gather, Owners owners);
+                  Sliding slide, Gather gather, Owners owners, std::string note = {});
   OverlapSmoother(const OverlapSmoother&) = delete;
   OverlapSmoother& operator=(const OverlapSmoother&) = delete;
   ~OverlapSmoother() = default;
@@ -62,6 +64,8 @@ class OverlapSmoother {
 
  private:
   const TriangleComponents& components() const { return topology_ ? *topology_ : components_; }
+  /// How many quadrilaterals the whole mesh has. Collective.
+  void count_quadrilaterals();
   /// How many vertices are free in the whole mesh. Collective.
   void count_free();
   /// Holds layers, and finds what may slide beside them. Collective.
@@ -88,9 +92,11 @@ class OverlapSmoother {
   Sliding slide_;  ///< its lists are not looked at: the overlap has them
   Gather gather_;
   bool is_gathered_;  ///< rank 0 owns all vertices
+  std::string note_;
   std::optional<Workers> workers_;
   bool has_lengths_ = false;  ///< some rank has target lengths
   Overlap overlap_;
+  std::int64_t quadrilaterals_ = 0;  ///< in the whole mesh
   std::optional<GhostValues> ghosts_;
   std::optional<PlanPoints> points_;
   std::optional<TriangleTopology> topology_;  ///< of the overlap, until rings are made of it

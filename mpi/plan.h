@@ -26,7 +26,7 @@ enum class Gather : std::uint8_t {
 /// they change. The bits are those that SmoothingPlan gives the whole mesh, whose vertices and triangles have these ids
 /// for numbers (where ids are missing, they are vertices of no triangle), for every number of ranks and every way of
 /// cutting: every vertex is moved by the rank that owns it, and what the others see of it are its values. Nothing is
-/// held of the whole mesh on any rank, unless Gather allows it.
+/// held of the whole mesh on any rank, unless Gather allows it. What is said of triangles holds for quadrilaterals.
 ///
 /// Functions are collective over the ranks of the communicator, but for those that say otherwise: all ranks call them
 /// in the same order. An error on one of them is thrown on all of them, of the same type, with the rank's number in
@@ -38,7 +38,8 @@ enum class Gather : std::uint8_t {
 /// (Constraints::slide), and untangling of a mesh that has inverted triangles (without any,
 /// SmoothingOptions::untangles() changes nothing), are not there in pieces: Gather says what becomes of that. With the
 /// CUDA backend a device makes the sweeps of each rank, that of the rank's place on its machine; all else is done by
-/// the CPU. The paper's executions and orders are refused by std::invalid_argument.
+/// the CPU. Quadrilaterals are in pieces on CPUs alone: with that backend Gather says what becomes of them, and where
+/// rank 0 does it, its CPU does. The paper's executions and orders are refused by std::invalid_argument.
 class [[nodiscard]] Plan {
  public:
   /// `communicator`: a copy of it is made; the caller's may be freed. `mesh` and `constraints`: in the rank's own

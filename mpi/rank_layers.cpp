@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -96,16 +97,13 @@ std::vector<std::int32_t> vertices_here(const Overlap& overlap, std::span<const 
   return found;
 }
 
-}  // namespace
-
-LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points,
-                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
-                         std::span<std::uint8_t> fixed, const Communicator& ranks, Workers& workers) {
-  if (layers == Layers::smooth) {
-    return {};
-  }
+/// hold_layers() by these triangles of the overlap.
+LayersResult hold_layers_among(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
+                               const Overlap& overlap, std::span<const Point2<double>> points, Layers layers,
+                               bool slides, std::span<std::uint8_t> fixed, const Communicator& ranks,
+                               Workers& workers) {
   GhostValues ghosts(overlap.part);
-  const LayerCandidates candidates(points, overlap.triangles, reversed, workers,
+  const LayerCandidates candidates(points, triangles, reversed, workers,
                                    [&ghosts](std::span<FlatAround> around) { ghosts.update(around); });
   Findings found = shared_findings(overlap, candidates.after(layers_first_choices, workers), layers, layers_least_seen,
                                    ranks, workers);
@@ -131,6 +129,24 @@ LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>>
   result.kept = ranks.sum(own.kept);
   result.kept_on_lines = ranks.sum(own.kept_on_lines);
   return result;
+}
+
+}  // namespace
+
+LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points,
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, const Communicator& ranks, Workers& workers) {
+  if (layers == Layers::smooth) {
+    return {};
+  }
+  return overlap.elements().visit([&]<class Corners>(std::span<const Corners> listed) {
+    if constexpr (std::is_same_v<Corners, Triangle>) {
+      return hold_layers_among(listed, reversed, overlap, points, layers, slides, fixed, ranks, workers);
+    } else {
+      const CutElements cut = cut_into_triangles(points, listed, reversed);
+      return hold_layers_among(cut.triangles, cut.reversed, overlap, points, layers, slides, fixed, ranks, workers);
+    }
+  });
 }
 
 }  // namespace trismooth::mpi

@@ -20,7 +20,7 @@ namespace trismooth::mpi {
 class Communicator;
 
 /// trismooth::hold_layers() of a mesh in pieces: what it would find in the whole mesh. `points`: one for each vertex of
-/// the overlap, in the local frame; `reversed`: as MeshRings::reversed, of its triangles. `fixed`: one byte a vertex of
+/// the overlap, in the local frame; `reversed`: as MeshRings::reversed, of its elements. `fixed`: one byte a vertex of
 /// the overlap, ghosts too. Collective. The flat triangles that may be in a layer go to rank 0, which looks at them: 64
 /// bytes each, and few in a mesh without layers.
 LayersResult hold_layers(const Overlap& overlap, std::span<const Point2<double>> points,

@@ -87,6 +87,9 @@ class Backend {
   /// Whether it smooths quadrilaterals; else triangles alone.
   virtual bool takes_quadrilaterals() const = 0;
 
+  /// Whether it smooths those of a part of a mesh (MeshRings::part) as well.
+  virtual bool takes_quadrilaterals_in_parts() const { return false; }
+
   /// prepare() for a caller who keeps the mesh. It is copied where the backend has no other way.
   virtual std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, const ElementList& elements,
                                                          std::span<const Point2<double>> local,

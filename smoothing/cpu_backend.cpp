@@ -48,7 +48,7 @@ constexpr const char* untangling_over_parts =
 
 class CpuSmoother final : public PreparedSmoother {
  public:
-  /// Where elements are not listed as triangles the mesh is no part of another one.
+  /// Where elements are not listed as triangles the sweeps are made here.
   CpuSmoother(MeshRings mesh, const ElementList& elements, std::span<const Point2<double>> local,
               const SmoothingOptions& options, std::unique_ptr<SweepOffloads> offloads)
       : options_(options),
@@ -522,6 +522,7 @@ class CpuBackend final : public Backend {
   }
 
   bool takes_quadrilaterals() const override { return true; }
+  bool takes_quadrilaterals_in_parts() const override { return true; }
 
  private:
   static void require_available(const SmoothingOptions& options, const MeshRings& mesh) {

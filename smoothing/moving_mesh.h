@@ -61,10 +61,11 @@ struct EnumText<MovingStart> {
 class [[nodiscard]] MovingMesh {
  public:
   /// `reference`: one point for every vertex, in the plane of x and y. `triangles`: elements, quadrilaterals among them
-  /// where four numbers are listed for each; those, and `constraints`: as SmoothingPlan has them; no vertices slide. Throws MeshError and std::invalid_argument as SmoothingPlan does, and MeshError for a
-  /// coordinate that is not finite; std::invalid_argument also for sliding, for options.mean_ratio.target_lengths
-  /// (sizes are those of the reference) and for a backend of several devices; DeviceError; PlanCancelled. Complexity:
-  /// linear, but for sorting the edges of each vertex.
+  /// where four numbers are listed for each; those, and `constraints`: as SmoothingPlan has them; no vertices slide.
+  /// Throws MeshError and std::invalid_argument as SmoothingPlan does, and MeshError for a coordinate that is not
+  /// finite; std::invalid_argument also for sliding, for options.mean_ratio.target_lengths (sizes are those of the
+  /// reference) and for a backend of several devices; DeviceError; PlanCancelled. Complexity: linear, but for sorting
+  /// the edges of each vertex.
   MovingMesh(const ConstPointView& reference, const IndexView& triangles, const Constraints& constraints,
              const SmoothingOptions& options = moving_options());
   /// Held is what the mesh itself holds: its boundaries.

@@ -347,7 +347,7 @@ class PieceMesh final : public StagedMesh {
   }
 
   TriangleView view_of(const LocalPoints& points) const {
-    return {points.points, topology_->overlap().triangles, reversed_, points.frame.exponent};
+    return {points.points, topology_->overlap().elements().triangles(), reversed_, points.frame.exponent};
   }
 
   /// note_growth_bound() of the whole mesh. Each of the free corners is judged by the rank that owns it.

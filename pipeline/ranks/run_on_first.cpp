@@ -13,13 +13,16 @@
 
 #include <mpi.h>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/hold.h"
+#include "trismooth/base/index_view.h"
 #include "trismooth/base/machine/call_limit.h"
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/partition/vertex_owners.h"
-#include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/element.h"
 #include "trismooth/smoothing/backend.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/cpu_backend.h"
 #include "trismooth/smoothing/noted_smoother.h"
 
@@ -41,11 +44,10 @@ void share_command(RankCommand& command, const mpi::Communicator& ranks) {
 }
 
 /// How the vertices are shared out: as the ranks that have them do not, all being rank 0's, somebody has to say it.
-std::vector<std::int32_t> owners_of_one_file(std::span<const Point2<double>> points,
-                                             std::span<const Triangle> triangles, Partition partition,
-                                             const mpi::Communicator& ranks) {
+std::vector<std::int32_t> owners_of_one_file(std::span<const Point2<double>> points, const ElementList& elements,
+                                             Partition partition, const mpi::Communicator& ranks) {
   if (partition != Partition::keep) {
-    return find_owners(partition, {points, triangles, {}}, ranks);
+    return find_owners(partition, {points, elements, {}}, ranks);
   }
   std::vector<std::int32_t> owners(points.size());
   for (std::size_t v = 0; v < owners.size(); ++v) {
@@ -56,7 +58,7 @@ std::vector<std::int32_t> owners_of_one_file(std::span<const Point2<double>> poi
 
 /// The mesh of rank 0, nothing on the others.
 struct MeshOfFirst {
-  std::span<const Triangle> triangles;
+  ElementList elements;
   std::span<const std::uint8_t> fixed;  ///< bits of namespace hold
 };
 
@@ -74,8 +76,8 @@ SmoothingResult smooth_over_ranks(const MeshOfFirst& mesh, std::span<Point2<doub
       named[v] = (mesh.fixed[v] & ~hold::isolated) != 0 ? 1 : 0;
       in_other_cell[v] = mesh.fixed[v] & hold::other_cell;
     }
-    const std::vector<std::int32_t> owners = owners_of_one_file(points, mesh.triangles, partition, *ranks);
-    const mpi::LocalMesh local{mesh.triangles, ids, owners};
+    const std::vector<std::int32_t> owners = owners_of_one_file(points, mesh.elements, partition, *ranks);
+    const mpi::LocalMesh local{IndexView(mesh.elements), ids, owners};
     const Constraints constraints{.fixed = named, .other_cells = in_other_cell};
     SmoothingOptions without_layers = options;
     without_layers.layers = Layers::smooth;  // they are held already
@@ -89,10 +91,10 @@ SmoothingResult smooth_over_ranks(const MeshOfFirst& mesh, std::span<Point2<doub
 class RankSmoother final : public PreparedSmoother {
  public:
   /// `options`: with the backend that makes the sweeps of a rank.
-  RankSmoother(MeshRings mesh, std::span<const Triangle> triangles, SmoothingOptions options, Partition partition,
+  RankSmoother(MeshRings mesh, const ElementList& elements, SmoothingOptions options, Partition partition,
                std::shared_ptr<const mpi::Communicator> ranks)
       : fixed_(std::move(mesh.fixed)),
-        triangles_(triangles.begin(), triangles.end()),
+        elements_(elements),
         options_(std::move(options)),
         partition_(partition),
         ranks_(std::move(ranks)) {}
@@ -102,28 +104,29 @@ class RankSmoother final : public PreparedSmoother {
     CallLimit::lift_current();  // the other ranks would wait for ever
     RankCommand command{RankCommand::What::smooth, storage, options_.guard};
     share_command(command, *ranks_);
-    return smooth_over_ranks({triangles_, fixed_}, points, storage, options_, partition_, ranks_);
+    return smooth_over_ranks({elements_.list(), fixed_}, points, storage, options_, partition_, ranks_);
   }
 
   std::vector<std::uint8_t> fixed() const override { return fixed_; }
 
  private:
   std::vector<std::uint8_t> fixed_;
-  std::vector<Triangle> triangles_;
+  OwnElements elements_;
   SmoothingOptions options_;
   Partition partition_;
   std::shared_ptr<const mpi::Communicator> ranks_;
 };
 
-bool has_broken_triangles(std::span<const Triangle> triangles, std::span<const std::uint8_t> reversed,
-                          std::span<const Point2<double>> local) {
-  const TriangleView view{local, triangles, reversed, 0};
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (!(shape_quotient(corner_points(view, t)) > 0)) {
-      return true;
+bool has_broken_elements(const ElementList& elements, std::span<const std::uint8_t> reversed,
+                         std::span<const Point2<double>> local) {
+  return elements.visit([&](const auto& listed) {
+    for (std::size_t e = 0; e < listed.size(); ++e) {
+      if (!(quotient_at(canonical_corners(listed[e], reversed[e] != 0), local) > 0)) {
+        return true;
+      }
     }
-  }
-  return false;
+    return false;
+  });
 }
 
 /// All ranks, for rank 0 that has the mesh.
@@ -133,31 +136,36 @@ class RankBackend final : public Backend {
   RankBackend(const Backend* of_rank, Partition partition, std::shared_ptr<const mpi::Communicator> ranks)
       : of_rank_(of_rank), partition_(partition), ranks_(std::move(ranks)) {}
 
-  std::string name() const override { return (of_rank_ != nullptr ? *of_rank_ : cpu_backend()).name(); }
+  std::string name() const override { return backend_of_rank().name(); }
 
   std::unique_ptr<PreparedSmoother> prepare(MeshRings mesh, const ElementList& elements,
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
-    const std::span<const Triangle> triangles = elements.triangles();
+    if (!elements.are_triangles() && !backend_of_rank().takes_quadrilaterals_in_parts()) {
+      return alone(std::move(mesh), elements, local, options,
+                   "quadrilaterals are smoothed, which backend '" + name() + "' does not over ranks,");
+    }
     const bool slides = mesh.slidable.is_wanted();
-    if (slides || !elements.are_triangles() ||
-        (options.untangles() && has_broken_triangles(triangles, mesh.reversed, local))) {
-      return alone(cpu_backend().prepare(std::move(mesh), elements, local, options),
-                   !elements.are_triangles() ? "quadrilaterals are smoothed"
-                   : slides                  ? "vertices slide"
-                                             : "inverted triangles are untangled");
+    if (slides || (options.untangles() && has_broken_elements(elements, mesh.reversed, local))) {
+      return alone(std::move(mesh), elements, local, options,
+                   slides ? "vertices slide" : "inverted elements are untangled");
     }
     SmoothingOptions of_rank = options;
     of_rank.backend = of_rank_;
-    return std::make_unique<RankSmoother>(std::move(mesh), triangles, std::move(of_rank), partition_, ranks_);
+    return std::make_unique<RankSmoother>(std::move(mesh), elements, std::move(of_rank), partition_, ranks_);
   }
 
   bool takes_quadrilaterals() const override { return true; }
 
  private:
-  std::unique_ptr<PreparedSmoother> alone(std::unique_ptr<PreparedSmoother> smoother, const std::string& why) const {
+  const Backend& backend_of_rank() const { return of_rank_ != nullptr ? *of_rank_ : cpu_backend(); }
+
+  std::unique_ptr<PreparedSmoother> alone(MeshRings mesh, const ElementList& elements,
+                                          std::span<const Point2<double>> local, const SmoothingOptions& options,
+                                          const std::string& why) const {
     return std::make_unique<NotedSmoother>(
-        std::move(smoother), why + " by one rank alone, not by the " + std::to_string(ranks_->size()) + " there are");
+        cpu_backend().prepare(std::move(mesh), elements, local, options),
+        why + " by one rank alone, not by the " + std::to_string(ranks_->size()) + " there are");
   }
 
   const Backend* of_rank_;

@@ -35,12 +35,12 @@ Halo::Halo(const MeshPart& part, const PackedRings& rings)
   fixed_to_owners_ = {fixed_to_ghosts_.receives, fixed_to_ghosts_.sends};
   std::vector<std::pair<std::int32_t, std::int32_t>> around;
   for (std::int32_t v = 0; v < rings.free_count(); ++v) {
-    for (const std::int32_t neighbour : rings.view()[v]) {
+    rings.view().for_vertices_around(v, [&](std::int32_t other) {
       // (Fixed ghosts never move.)
-      if (neighbour >= rings.free_count() && neighbour < rings.first_fixed()) {
-        around.emplace_back(neighbour, v);
+      if (other >= rings.free_count() && other < rings.first_fixed()) {
+        around.emplace_back(other, v);
       }
-    }
+    });
   }
   around_ghosts_ = NumberLists(rings.free_count(), rings.vertex_count(), around);
 }

@@ -19,7 +19,8 @@ class Halo {
 
   PartMessenger& messenger() const { return *part_.messenger; }
   const MeshPart& part() const { return part_; }
-  /// Own free vertices that have the ghost (any vertex without a ring) as a neighbour.
+  /// Own free vertices that have an element with the ghost (any vertex without a ring), opposite corners of
+  /// quadrilaterals among them.
   const NumberLists& around_ghosts() const { return around_ghosts_; }
 
   /// What goes to the neighbours and comes from them of each colour (Form A: of one, which all have).

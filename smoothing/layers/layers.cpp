@@ -312,19 +312,14 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
   return found.result;
 }
 
-LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const MixedElement> elements,
-                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
-                         std::span<std::uint8_t> fixed, Workers& workers) {
-  if (layers == Layers::smooth) {
-    return {};
-  }
-  std::vector<Triangle> cut;
-  std::vector<std::uint8_t> cut_reversed;
-  cut.reserve(2 * elements.size());
-  cut_reversed.reserve(2 * elements.size());
+CutElements cut_into_triangles(std::span<const Point2<double>> points, std::span<const MixedElement> elements,
+                               std::span<const std::uint8_t> reversed) {
+  CutElements cut;
+  cut.triangles.reserve(2 * elements.size());
+  cut.reversed.reserve(2 * elements.size());
   const auto take = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::size_t e) {
-    cut.push_back({a, b, c});
-    cut_reversed.push_back(reversed[e]);
+    cut.triangles.push_back({a, b, c});
+    cut.reversed.push_back(reversed[e]);
   };
   for (std::size_t e = 0; e < elements.size(); ++e) {
     // From the smallest corner on, as that decides where the diagonals are of one length.
@@ -339,7 +334,17 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
       take(a, c, d, e);
     }
   }
-  return hold_layers(points, cut, cut_reversed, layers, slides, fixed, workers);
+  return cut;
+}
+
+LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const MixedElement> elements,
+                         std::span<const std::uint8_t> reversed, Layers layers, bool slides,
+                         std::span<std::uint8_t> fixed, Workers& workers) {
+  if (layers == Layers::smooth) {
+    return {};
+  }
+  const CutElements cut = cut_into_triangles(points, elements, reversed);
+  return hold_layers(points, cut.triangles, cut.reversed, layers, slides, fixed, workers);
 }
 
 }  // namespace trismooth

@@ -116,8 +116,19 @@ LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const
                          std::span<const std::uint8_t> reversed, Layers layers, bool slides,
                          std::span<std::uint8_t> fixed, Workers& workers);
 
-/// hold_layers() of a mesh with quadrilaterals: a layer of these is one of the triangles into which their shorter
-/// diagonals cut them.
+/// The triangles of a mesh, and those into which their shorter diagonals cut its quadrilaterals.
+struct CutElements {
+  std::vector<Triangle> triangles;
+  std::vector<std::uint8_t> reversed;  ///< one a triangle, as MeshRings::reversed
+};
+
+/// Cuts them. `points`: one for each vertex; `reversed`: one for each element. The cuts depend on the positions and on
+/// the order of the numbers of corners alone. Complexity: linear.
+CutElements cut_into_triangles(std::span<const Point2<double>> points, std::span<const MixedElement> elements,
+                               std::span<const std::uint8_t> reversed);
+
+/// hold_layers() of a mesh with quadrilaterals: a layer of these is one of the triangles into which they are cut, see
+/// cut_into_triangles().
 LayersResult hold_layers(std::span<const Point2<double>> points, std::span<const MixedElement> elements,
                          std::span<const std::uint8_t> reversed, Layers layers, bool slides,
                          std::span<std::uint8_t> fixed, Workers& workers);

@@ -30,9 +30,7 @@ class FixedElements {
   FixedElements(const ElementList& elements, std::span<const std::uint8_t> reversed,
                 std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> ghosts = {}) {
     elements.visit([&]<class Corners>(std::span<const Corners> all) {
-      list_of<Corners>() = listed(all, reversed, workers, [&](const Corners& corners) {
-        return all_are_fixed(corners, fixed) && (ghosts.empty() || ghosts[first_vertex(corners)] == 0);
-      });
+      list_of<Corners>() = listed(all, reversed, fixed, workers, ghosts);
     });
   }
 
@@ -61,15 +59,14 @@ class FixedElements {
       return mixed_;
     }
   }
-  template <class Corners>
-  static std::size_t first_vertex(const Corners& corners) {
-    return static_cast<std::size_t>(*std::min_element(corners.begin(), corners.begin() + corner_count(corners)));
-  }
-
   /// Those that count, in canonical order.
-  template <class Corners, class Counts>
+  template <class Corners>
   static BulkVector<Corners> listed(std::span<const Corners> elements, std::span<const std::uint8_t> reversed,
-                                    Workers& workers, const Counts& counts) {
+                                    std::span<const std::uint8_t> fixed, Workers& workers,
+                                    std::span<const std::uint8_t> ghosts) {
+    const auto counts = [&](const Corners& corners) {
+      return all_are_fixed(corners, fixed) && (ghosts.empty() || ghosts[std::ranges::min(corners_of(corners))] == 0);
+    };
     BulkVector<Corners> found;
     // Memory that is never touched costs nothing.
     found.resize(elements.size());

@@ -460,11 +460,12 @@ std::int64_t inverted_elements_of_part(const PackedRings& rings, std::span<const
   const RingView view = rings.view();
   std::int64_t inverted = 0;
   for (std::int32_t v = 0; v < rings.free_count(); ++v) {
-    for_elements_around(view[v], [&](const auto& corner) {
+    const auto count = [&](const auto& corner) {
       const bool is_own = corner.all(
           [&](std::int32_t other) { return other >= rings.first_fixed() || view.input(other) > view.input(v); });
       inverted += is_own && !(quotient_of(element_at(v, corner), points, view) > 0) ? 1 : 0;
-    });
+    };
+    view.with_ring(v, [&](const auto& ring) { for_elements_around(ring, count); });
   }
   return inverted;
 }

@@ -32,7 +32,7 @@ class OverlapTriangles {
       }
     }
     const mpi::ByRank<V> told = ranks_.exchanged(std::move(answers));
-    std::vector<V> all(topology_.overlap().triangles.size());
+    std::vector<V> all(topology_.overlap().elements().size());
     for (std::size_t r = 0; r < told.size(); ++r) {
       for (std::size_t i = 0; i < told[r].size(); ++i) {
         all[static_cast<std::size_t>(lists_->wanted[r][i])] = told[r][i];

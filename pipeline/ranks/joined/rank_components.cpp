@@ -32,9 +32,9 @@ struct ComponentCount {
   std::int64_t reoriented() const { return std::min(reversed, triangles - reversed); }
 };
 
-/// Whether other ranks have the triangle as well.
-bool is_shared(const mpi::Overlap& overlap, const Triangle& triangle) {
-  return !std::ranges::all_of(triangle, [&](std::int32_t v) { return overlap.is_own(v); });
+/// Whether other ranks have the element as well.
+bool is_shared(const mpi::Overlap& overlap, std::size_t element) {
+  return !std::ranges::all_of(overlap.elements()[element], [&](std::int32_t v) { return overlap.is_own(v); });
 }
 
 /// Pairs of parts that have a triangle in common, on rank 0: enough of them to join all parts of a component.
@@ -46,8 +46,8 @@ std::vector<std::pair<ComponentPart, ComponentPart>> joints(const RankTopology& 
   const mpi::Communicator& ranks = topology.ranks();
   const mpi::Overlap& overlap = topology.overlap();
   auto sent = mpi::lists_by_rank<Placed>(ranks);
-  for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
-    if (is_shared(overlap, overlap.triangles[t])) {
+  for (std::size_t t = 0; t < overlap.elements().size(); ++t) {
+    if (is_shared(overlap, t)) {
       const std::int64_t id = overlap.triangle_ids[t];
       sent[static_cast<std::size_t>(mpi::home_of(id, ranks))].push_back({id, topology.topology().component[t]});
     }
@@ -119,12 +119,12 @@ RankComponents count_components(const RankTopology& topology, std::span<const st
   const mpi::Overlap& overlap = topology.overlap();
   std::vector<ComponentCount> counts(static_cast<std::size_t>(topology.topology().components));
   std::vector<std::uint8_t> goes_on(counts.size(), 0);
-  for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < overlap.elements().size(); ++t) {
     const auto c = static_cast<std::size_t>(topology.topology().component[t]);
     counts[c].part = {ranks.rank(), static_cast<std::int32_t>(c)};
     counts[c].triangles += topology.counts(t) ? 1 : 0;
     counts[c].reversed += topology.counts(t) && reversed[t] != 0 ? 1 : 0;
-    goes_on[c] = is_shared(overlap, overlap.triangles[t]) ? 1 : goes_on[c];
+    goes_on[c] = is_shared(overlap, t) ? 1 : goes_on[c];
   }
   RankComponents result;
   auto sent = mpi::lists_by_rank<ComponentCount>(ranks);

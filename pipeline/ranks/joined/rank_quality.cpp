@@ -73,7 +73,7 @@ RankQuality::RankQuality(const RankTopology& topology, std::span<const std::uint
   auto sent = mpi::lists_by_rank<Reported>(ranks_);
   auto id = overlap.triangle_ids.begin();
   int rank = 0;
-  for (std::size_t t = 0; t < overlap.triangles.size(); ++t, ++id) {
+  for (std::size_t t = 0; t < overlap.elements().size(); ++t, ++id) {
     if (!topology.counts(t)) {
       continue;
     }
@@ -81,7 +81,7 @@ RankQuality::RankQuality(const RankTopology& topology, std::span<const std::uint
     while (*id / block_size >= first_block(rank + 1)) {
       ++rank;
     }
-    const bool all_fixed = all_are_fixed(overlap.triangles[t], held);
+    const bool all_fixed = all_are_fixed(overlap.elements().triangles()[t], held);
     sent_[static_cast<std::size_t>(rank)].push_back(static_cast<std::int32_t>(t));
     sent[static_cast<std::size_t>(rank)].push_back({static_cast<std::int32_t>(*id - first_block(rank) * block_size),
                                                     regions.empty() ? 0 : regions[t],
@@ -139,7 +139,8 @@ BulkVector<Point2<double>> RankQuality::corners_of_round(std::span<const Point2<
     sent[r].reserve(triangles.size());
     for (const std::int32_t t : triangles) {
       const auto triangle = static_cast<std::size_t>(t);
-      sent[r].push_back(points_of(canonical_corners(overlap.triangles[triangle], reversed_[triangle] != 0), points));
+      sent[r].push_back(
+          points_of(canonical_corners(overlap.elements().triangles()[triangle], reversed_[triangle] != 0), points));
     }
   }
   const std::int64_t first = first_of_round(ranks_.rank(), round);

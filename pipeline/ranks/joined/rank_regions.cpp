@@ -158,14 +158,16 @@ class RankValues {
       const std::vector<std::uint64_t>& values = at_overlap();
       std::vector<std::optional<std::uint64_t>> seen(overlap.ids.size());
       std::vector<std::uint8_t> is_between(overlap.ids.size(), 0);
-      for (std::size_t t = 0; t < overlap.triangles.size(); ++t) {
-        for (const std::int32_t v : overlap.triangles[t]) {
+      std::size_t t = 0;
+      for (const std::span<const std::int32_t> corners : overlap.elements()) {
+        for (const std::int32_t v : corners) {
           std::optional<std::uint64_t>& first = seen[static_cast<std::size_t>(v)];
           first = first.value_or(values[t]);
           if (*first != values[t] && overlap.is_own(v)) {
             is_between[static_cast<std::size_t>(v)] = 1;
           }
         }
+        ++t;
       }
       between_ = ranks_.sum(std::ranges::count(is_between, 1));
     }
@@ -175,14 +177,19 @@ class RankValues {
   double fraction_between() {
     const mpi::Overlap& overlap = topology_.overlap();
     const std::vector<std::uint64_t>& values = at_overlap();
+    const ElementList elements = overlap.elements();
+    const std::size_t sides = elements.are_triangles() ? 3 : 4;
     std::int64_t edges = 0;
     std::int64_t changes = 0;
-    for (std::size_t h = 0; h < 3 * overlap.triangles.size(); ++h) {
-      const std::int32_t twin = topology_.topology().twins[h];
-      const Triangle& corners = overlap.triangles[h / 3];
-      if (twin > static_cast<std::int32_t>(h) && overlap.is_own(std::min(corners[h % 3], corners[(h + 1) % 3]))) {
-        ++edges;
-        changes += values[h / 3] != values[static_cast<std::size_t>(twin) / 3] ? 1 : 0;
+    for (std::size_t t = 0; t < elements.size(); ++t) {
+      const std::span<const std::int32_t> corners = elements[t];
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const std::int32_t twin = topology_.topology().twins[sides * t + i];
+        if (twin > static_cast<std::int32_t>(sides * t + i) &&
+            overlap.is_own(std::min(corners[i], next_corner(corners, i)))) {
+          ++edges;
+          changes += values[t] != values[static_cast<std::size_t>(twin) / sides] ? 1 : 0;
+        }
       }
     }
     edges = ranks_.sum(edges);

@@ -7,7 +7,8 @@ namespace trismooth {
 
 bool has_repeated_triangles(const RankTopology& topology, Workers& workers) {
   // Who has a triangle has those of the same corners, too.
-  return topology.ranks().any(!find_repeated_triangles(topology.overlap().triangles, workers).empty());
+  return topology.ranks().any(topology.overlap().elements().visit(
+      [&](const auto& elements) { return !find_repeated_triangles(elements, workers).empty(); }));
 }
 
 }  // namespace trismooth

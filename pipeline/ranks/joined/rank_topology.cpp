@@ -56,7 +56,9 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
   naming_file(path, [&] {
     overlap_ = mpi::build_overlap(local, mesh.triangles, constraints, false, ranks_, workers);
     ranks_->on_all([&] {
-      topology_ = connect_triangles(overlap_.vertex_count(), overlap_.triangles, workers, overlap_.part.ghosts);
+      topology_ = overlap_.elements().visit([&](const auto& elements) {
+        return connect_triangles(overlap_.vertex_count(), elements, workers, overlap_.part.ghosts);
+      });
     });
   });
 }
@@ -71,15 +73,11 @@ std::int32_t RankTopology::local_triangle(std::int64_t id) const {
   return own_places_.empty() ? static_cast<std::int32_t>(place) : own_places_[static_cast<std::size_t>(place)];
 }
 
-bool RankTopology::counts(std::size_t triangle) const {
-  const auto& [a, b, c] = overlap_.triangles[triangle];
-  return overlap_.is_own(std::min({a, b, c}));
-}
-
 std::vector<std::uint8_t> RankTopology::held(std::span<const std::int32_t> regions, Workers& workers) const {
   std::vector<std::uint8_t> held;
   agree(*ranks_, [&] {
-    held = fixed_vertices(topology_, overlap_.triangles, {.regions = regions}, workers);
+    held = overlap_.elements().visit(
+        [&](const auto& elements) { return fixed_vertices(topology_, elements, {.regions = regions}, workers); });
     for (std::size_t v = 0; v < held.size(); ++v) {
       held[v] |= overlap_.named[v];
     }

@@ -68,7 +68,7 @@ class RankTopology {
   /// The triangle of the rank's mesh whose number in the whole mesh that is; -1: it is none of its own. Local.
   std::int32_t local_triangle(std::int64_t id) const;
   /// Whether this rank is the one of those that have the triangle which counts it. Local.
-  bool counts(std::size_t triangle) const;
+  bool counts(std::size_t element) const { return overlap_.counts(element); }
 
   /// Why each vertex of the overlap is held, bits of namespace hold. `regions`: one number a triangle of the overlap;
   /// empty: there are none. Collective.

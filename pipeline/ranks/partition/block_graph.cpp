@@ -31,7 +31,7 @@ void join(std::vector<Weight>& weights) {
   weights.resize(end);
 }
 
-std::vector<Weight> own_weights(std::span<const std::int32_t> block_of, std::span<const Triangle> triangles,
+std::vector<Weight> own_weights(std::span<const std::int32_t> block_of, const ElementList& elements,
                                 std::span<const std::uint8_t> is_copy) {
   const std::int32_t blocks = block_of.empty() ? 0 : *std::ranges::max_element(block_of) + 1;
   std::vector<std::int64_t> counts(static_cast<std::size_t>(blocks), 0);
@@ -44,13 +44,14 @@ std::vector<Weight> own_weights(std::span<const std::int32_t> block_of, std::spa
       weights.push_back({block, block, counts[static_cast<std::size_t>(block)]});
     }
   }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
+  for (std::size_t t = 0; t < elements.size(); ++t) {
     if (!is_copy.empty() && is_copy[t] != 0) {
       continue;
     }
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const std::int32_t a = block_of[static_cast<std::size_t>(triangles[t][corner])];
-      const std::int32_t b = block_of[static_cast<std::size_t>(triangles[t][(corner + 1) % 3])];
+    const std::span<const std::int32_t> corners = elements[t];
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+      const std::int32_t a = block_of[static_cast<std::size_t>(corners[corner])];
+      const std::int32_t b = block_of[static_cast<std::size_t>(next_corner(corners, corner))];
       if (a != b) {
         weights.push_back({a, b, 1});
         weights.push_back({b, a, 1});
@@ -63,10 +64,10 @@ std::vector<Weight> own_weights(std::span<const std::int32_t> block_of, std::spa
 
 }  // namespace
 
-BlockGraph graph_of_blocks(std::span<const std::int32_t> block_of, std::span<const Triangle> triangles,
+BlockGraph graph_of_blocks(std::span<const std::int32_t> block_of, const ElementList& elements,
                            std::span<const std::uint8_t> is_copy, const mpi::Communicator& ranks) {
   auto sent = mpi::lists_by_rank<Weight>(ranks);
-  sent[0] = own_weights(block_of, triangles, is_copy);
+  sent[0] = own_weights(block_of, elements, is_copy);
   std::vector<Weight> weights;
   for (const auto& list : ranks.exchanged(std::move(sent))) {
     weights.insert(weights.end(), list.begin(), list.end());

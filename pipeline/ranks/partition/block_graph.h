@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "trismooth/base/triangle_view.h"
+#include "trismooth/base/element_list.h"
 #include "trismooth/mpi/communicator.h"
 
 namespace trismooth {
@@ -16,13 +16,13 @@ struct BlockGraph {
   std::vector<std::int64_t> weights;        ///< vertices of each
   std::vector<std::int64_t> offsets;        ///< neighbours of block i: neighbours[offsets[i] .. offsets[i + 1])
   std::vector<std::int32_t> neighbours;     ///< places in `blocks`
-  std::vector<std::int64_t> edges_between;  ///< for each neighbour: sides of triangles that are cut between the two
+  std::vector<std::int64_t> edges_between;  ///< for each neighbour: sides of elements that are cut between the two
 };
 
 /// The graph, on rank 0; empty on the others. `block_of`: of each of the rank's vertices, the same on all ranks that
-/// have one; a vertex that several ranks have weighs as often. Triangles that `is_copy` marks have no say. Collective.
-/// Complexity: n log n in the rank's triangles between blocks; on rank 0 in those of all.
-BlockGraph graph_of_blocks(std::span<const std::int32_t> block_of, std::span<const Triangle> triangles,
+/// have one; a vertex that several ranks have weighs as often. Elements that `is_copy` marks have no say. Collective.
+/// Complexity: n log n in the rank's elements between blocks; on rank 0 in those of all.
+BlockGraph graph_of_blocks(std::span<const std::int32_t> block_of, const ElementList& elements,
                            std::span<const std::uint8_t> is_copy, const mpi::Communicator& ranks);
 
 }  // namespace trismooth

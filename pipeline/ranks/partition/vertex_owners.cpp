@@ -15,7 +15,7 @@ namespace trismooth {
 
 namespace {
 
-/// Sides of triangles between blocks of different parts, counted from both.
+/// Sides of elements between blocks of different parts, counted from both.
 std::int64_t cut_of(const BlockGraph& graph, std::span<const std::int32_t> part_of) {
   std::int64_t cut = 0;
   for (std::size_t i = 0; i < part_of.size(); ++i) {
@@ -48,7 +48,7 @@ std::vector<std::int32_t> ranks_of_blocks(const BlockGraph& graph, std::vector<s
 std::vector<std::int32_t> owners_of_whole(const ShareableMesh& mesh, const mpi::Communicator& ranks) {
   std::vector<std::int32_t> numbers(mesh.points.size());
   std::iota(numbers.begin(), numbers.end(), 0);
-  const BlockGraph graph = graph_of_blocks(numbers, mesh.triangles, mesh.is_copy, ranks);
+  const BlockGraph graph = graph_of_blocks(numbers, mesh.elements, mesh.is_copy, ranks);
   return ranks_of_blocks(graph, bisected(mesh.points, ranks.size(), ranks), ranks);
 }
 
@@ -58,7 +58,7 @@ std::vector<std::int32_t> owners_of_blocks(const ShareableMesh& mesh, const mpi:
   const int blocks_a_rank = std::clamp(most_blocks / ranks.size(), 64, 1024);
   const int blocks = ranks.size() * blocks_a_rank;
   std::vector<std::int32_t> owners = bisected(mesh.points, blocks, ranks, {1.0 / 16, blocks_a_rank});
-  const BlockGraph graph = graph_of_blocks(owners, mesh.triangles, mesh.is_copy, ranks);
+  const BlockGraph graph = graph_of_blocks(owners, mesh.elements, mesh.is_copy, ranks);
   std::vector<std::int32_t> rank_of_found;
   for (const std::int32_t block : graph.blocks) {
     rank_of_found.push_back(block / blocks_a_rank);

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/point2.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/partition.h"
 
@@ -15,8 +15,8 @@ namespace trismooth {
 /// What a rank has of a mesh that is to be shared out.
 struct ShareableMesh {
   std::span<const Point2<double>> points;  ///< one a vertex; ranks agree on them
-  std::span<const Triangle> triangles;
-  std::span<const std::uint8_t> is_copy;  ///< one flag a triangle; empty: there are none
+  ElementList elements;
+  std::span<const std::uint8_t> is_copy;  ///< one flag an element; empty: there are none
 };
 
 /// The rank that is to move each of the rank's vertices, whoever has it, by Partition::bisect or Partition::metis.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/mpi/triangle_exchange.h"
+#include "trismooth/mpi/element_exchange.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,27 +8,30 @@
 #include <vector>
 
 #include "trismooth/mpi/directory.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth::mpi {
 
 namespace {
 
-/// A triangle on its way to those who own its vertices.
-struct SentTriangle {
+/// An element on its way to those who own its vertices.
+template <class Corners>
+struct SentElement {
   std::int64_t id;
-  std::array<std::int64_t, 3> vertices;
-  std::array<std::int32_t, 3> owners;
+  CornerIds<Corners> vertices;
+  Corners owners;  ///< of the corners, in their order
   std::int32_t region;
 };
 
-class TriangleExchange {
+template <class Corners>
+class ElementExchange {
  public:
-  TriangleExchange(const LocalMesh& mesh, std::span<const Triangle> triangles, bool has_ids,
-                   std::span<const std::int32_t> regions, std::span<const std::int32_t> owners,
-                   const Communicator& ranks)
-      : mesh_(mesh), triangles_(triangles), has_ids_(has_ids), regions_(regions), owners_(owners), ranks_(ranks) {}
+  ElementExchange(const LocalMesh& mesh, std::span<const Corners> elements, bool has_ids,
+                  std::span<const std::int32_t> regions, std::span<const std::int32_t> owners,
+                  const Communicator& ranks)
+      : mesh_(mesh), elements_(elements), has_ids_(has_ids), regions_(regions), owners_(owners), ranks_(ranks) {}
 
-  TrianglesAround run() {
+  ElementsAround<Corners> run() {
     send();
     sort();
     return std::move(found_);
@@ -37,7 +40,7 @@ class TriangleExchange {
  private:
   bool is_copy(std::size_t t) const { return !mesh_.ghost_triangles.empty() && mesh_.ghost_triangles[t] != 0; }
 
-  /// What answers the ids of the caller's triangles that are no copies: of ascending ones.
+  /// What answers the ids of the caller's elements that are no copies: of ascending ones.
   auto own_ids() const {
     return [this, next = std::int32_t{0}, id = first_id_](std::int32_t t) mutable {
       if (has_ids_) {
@@ -50,16 +53,16 @@ class TriangleExchange {
     };
   }
 
-  /// Keeps the triangles at own vertices, and sends those at the others' to them.
+  /// Keeps the elements at own vertices, and sends those at the others' to them.
   void send() {
     std::int64_t count = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (std::size_t t = 0; t < elements_.size(); ++t) {
       count += is_copy(t) ? 0 : 1;
     }
     first_id_ = ranks_.sum_before(count);
     if (has_ids_) {
       std::vector<std::int64_t> ids;
-      for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      for (std::size_t t = 0; t < elements_.size(); ++t) {
         if (!is_copy(t)) {
           ids.push_back(mesh_.triangle_ids[t]);
         }
@@ -69,7 +72,7 @@ class TriangleExchange {
     kept_.reserve(static_cast<std::size_t>(count));
     std::vector<std::int64_t> counts(static_cast<std::size_t>(ranks_.size()), 0);  // of those that go to each rank
     std::vector<std::int32_t> leaving;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (std::size_t t = 0; t < elements_.size(); ++t) {
       if (is_copy(t)) {
         continue;
       }
@@ -90,7 +93,7 @@ class TriangleExchange {
     exchange(leaving, ranks_.exchanged_counts(counts));
   }
 
-  /// Sends the triangles `leaving` in portions, so that what is on its way takes little memory where nearly all belong
+  /// Sends the elements `leaving` in portions, so that what is on its way takes little memory where nearly all belong
   /// to other ranks.
   void exchange(std::span<const std::int32_t> leaving, const std::vector<std::int64_t>& from_counts) {
     constexpr std::size_t least_portion = 8192;
@@ -104,14 +107,14 @@ class TriangleExchange {
         static_cast<std::size_t>(std::accumulate(from_counts.begin(), from_counts.end(), std::int64_t{0})));
     auto id_of = own_ids();
     for (std::size_t i = 0; i < portions; ++i) {
-      auto sent = lists_by_rank<SentTriangle>(ranks_);
+      auto sent = lists_by_rank<SentElement<Corners>>(ranks_);
       const std::size_t first = std::min(i * portion, leaving.size());
       for (const std::int32_t t : leaving.subspan(first, std::min(portion, leaving.size() - first))) {
         const CornerOwners owners = owners_of_corners(static_cast<std::size_t>(t));
-        const SentTriangle triangle = sent_triangle(t, id_of(t), owners.of_corners);
+        const SentElement<Corners> element = sent_element(t, id_of(t), owners.of_corners);
         for (const std::int32_t owner : owners.ranks()) {
           if (owner != ranks_.rank()) {
-            sent[static_cast<std::size_t>(owner)].push_back(triangle);
+            sent[static_cast<std::size_t>(owner)].push_back(element);
           }
         }
       }
@@ -121,12 +124,12 @@ class TriangleExchange {
   }
 
   /// Keeps what came, and its corners that others own.
-  void receive(const ByRank<SentTriangle>& from) {
+  void receive(const ByRank<SentElement<Corners>>& from) {
     for (std::size_t r = 0; r < from.size(); ++r) {
       for (const auto& [id, vertices, owners, region] : from[r]) {
         found_.received.push_back({id, vertices, region, static_cast<std::int32_t>(r)});
-        for (std::size_t i = 0; i < 3; ++i) {
-          if (owners[i] != ranks_.rank()) {
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+          if (owners[i] != ranks_.rank() && vertices[i] != no_corner) {
             found_.foreign.push_back({vertices[i], owners[i]});
           }
         }
@@ -136,18 +139,20 @@ class TriangleExchange {
     sort_uniquely(found_.foreign);
   }
 
-  /// Those of a triangle's corners, and each of them once.
+  /// Those of an element's corners, and each of them once.
   struct CornerOwners {
-    std::array<std::int32_t, 3> of_corners;
-    std::array<std::int32_t, 3> different;
+    Corners of_corners;
+    Corners different;
     std::size_t count = 0;
 
     std::span<const std::int32_t> ranks() const { return std::span(different).first(count); }
   };
   CornerOwners owners_of_corners(std::size_t t) const {
     CornerOwners owners{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t owner = owners_[static_cast<std::size_t>(triangles_[t][i])];
+    owners.of_corners.fill(no_corner);
+    const std::span<const std::int32_t> corners = corners_of(elements_[t]);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::int32_t owner = owners_[static_cast<std::size_t>(corners[i])];
       owners.of_corners[i] = owner;
       if (std::ranges::find(owners.ranks(), owner) == owners.ranks().end()) {
         owners.different[owners.count++] = owner;
@@ -156,13 +161,13 @@ class TriangleExchange {
     return owners;
   }
 
-  SentTriangle sent_triangle(std::int32_t t, std::int64_t id, const std::array<std::int32_t, 3>& owners) const {
+  SentElement<Corners> sent_element(std::int32_t t, std::int64_t id, const Corners& owners) const {
     const auto place = static_cast<std::size_t>(t);
-    SentTriangle triangle{id, {}, owners, regions_.empty() ? 0 : regions_[place]};
-    for (std::size_t i = 0; i < 3; ++i) {
-      triangle.vertices[i] = mesh_.vertex_ids[static_cast<std::size_t>(triangles_[place][i])];
-    }
-    return triangle;
+    SentElement<Corners> element{id, {}, owners, regions_.empty() ? 0 : regions_[place]};
+    std::ranges::transform(elements_[place], element.vertices.begin(), [&](std::int32_t v) {
+      return v == no_corner ? no_corner : mesh_.vertex_ids[static_cast<std::size_t>(v)];
+    });
+    return element;
   }
 
   /// Those that were kept and those that came, in the order of their ids.
@@ -198,14 +203,14 @@ class TriangleExchange {
   }
 
   const LocalMesh& mesh_;
-  std::span<const Triangle> triangles_;
+  std::span<const Corners> elements_;
   bool has_ids_;
   std::span<const std::int32_t> regions_;
   std::span<const std::int32_t> owners_;
   const Communicator& ranks_;
-  std::int64_t first_id_ = 0;      ///< of the caller's triangles, where they have none
-  BulkVector<std::int32_t> kept_;  ///< the caller's triangles at own vertices
-  TrianglesAround found_;
+  std::int64_t first_id_ = 0;      ///< of the caller's elements, where they have none
+  BulkVector<std::int32_t> kept_;  ///< the caller's elements at own vertices
+  ElementsAround<Corners> found_;
 };
 
 }  // namespace
@@ -217,10 +222,18 @@ void sort_uniquely(BulkVector<OwnedId>& vertices) {
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
-TrianglesAround exchange_triangles(const LocalMesh& mesh, std::span<const Triangle> triangles, bool has_ids,
-                                   std::span<const std::int32_t> regions, std::span<const std::int32_t> owners,
-                                   const Communicator& ranks) {
-  return TriangleExchange(mesh, triangles, has_ids, regions, owners, ranks).run();
+template <class Corners>
+ElementsAround<Corners> exchange_elements(const LocalMesh& mesh, std::span<const Corners> elements, bool has_ids,
+                                          std::span<const std::int32_t> regions, std::span<const std::int32_t> owners,
+                                          const Communicator& ranks) {
+  return ElementExchange<Corners>(mesh, elements, has_ids, regions, owners, ranks).run();
 }
+
+template ElementsAround<Triangle> exchange_elements(const LocalMesh&, std::span<const Triangle>, bool,
+                                                    std::span<const std::int32_t>, std::span<const std::int32_t>,
+                                                    const Communicator&);
+template ElementsAround<MixedElement> exchange_elements(const LocalMesh&, std::span<const MixedElement>, bool,
+                                                        std::span<const std::int32_t>, std::span<const std::int32_t>,
+                                                        const Communicator&);
 
 }  // namespace trismooth::mpi
