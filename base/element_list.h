@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -58,6 +59,15 @@ class ElementList {
 
   /// All of them, where they are listed so.
   [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+  /// All of them, where they are listed so, as Triangle or as MixedElement; else none.
+  template <class Corners>
+  [[nodiscard]] std::span<const Corners> as() const {
+    if constexpr (std::same_as<Corners, Triangle>) {
+      return triangles_;
+    } else {
+      return mixed_;
+    }
+  }
 
   /// What body() returns of the list: a std::span of Triangle, or of MixedElement.
   template <class Body>

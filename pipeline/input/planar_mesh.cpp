@@ -100,10 +100,11 @@ PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::p
   return mesh;
 }
 
-PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers) {
+PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Quads quads,
+                         Workers& workers) {
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
-  static_cast<ElementCells&>(mesh) = element_cells(document, workers, Quads::hold);
+  static_cast<ElementCells&>(mesh) = element_cells(document, workers, quads);
   mesh.notes.clear();
   lay_into_plane(mesh, {}, document, path, workers);
   return mesh;

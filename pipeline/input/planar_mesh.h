@@ -72,9 +72,10 @@ PlanarMesh planar_mesh(const MeshDocument& document, const std::filesystem::path
 PlanarMesh projected_mesh(const MeshDocument& document, const std::filesystem::path& path, Workers& workers,
                           Quads quads = Quads::smooth);
 
-/// planar_mesh() of a piece of a mesh, whose quadrilaterals are held: it may have no triangle, or nothing at all, and
-/// no notes are made, which are for the whole mesh. Throws ReadError naming `path` for too many points or cells.
-PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Workers& workers);
+/// planar_mesh() of a piece of a mesh: it may have no element, or nothing at all, and no notes are made, which are for
+/// the whole mesh. Throws ReadError naming `path` for too many points or cells.
+PlanarMesh mesh_of_piece(const MeshDocument& document, const std::filesystem::path& path, Quads quads,
+                         Workers& workers);
 
 /// Not of a temporary: the elements may be the document's own.
 PlanarMesh planar_mesh(MeshDocument&& document, const std::filesystem::path& path, Workers& workers,

@@ -28,7 +28,7 @@ namespace {
 /// What the sets of a file hold, and what the report says of them.
 void take_sets(const PipelineOptions& options, Workers& workers, MeshShare& share) {
   const MeshDocument& document = share.document;
-  const PlanarMesh mesh = mesh_of_piece(document, options.input, workers);
+  const PlanarMesh mesh = mesh_of_piece(document, options.input, options.quads, workers);
   const Regions regions = find_regions(document, mesh, options.region_arrays);
   HeldSets sets = find_held_sets(document, mesh.elements, options.fixed_sets, regions.of_triangle);
   share.held_by_sets = std::move(sets.flags);
@@ -89,7 +89,7 @@ FileInPieces put_in_pieces(MeshShare share, const PipelineOptions& options, cons
     }
   }
   const std::set<std::string> of_places(document.arrays_of_places.begin(), document.arrays_of_places.end());
-  made.files = shared_out(std::move(share), options.partition.value_or(Partition::bisect), options.input,
+  made.files = shared_out(std::move(share), options.partition.value_or(Partition::bisect), options.quads, options.input,
                           options.written(), ranks, workers, notes);
   made.files.labelled = std::move(labelled);
   const std::vector<std::string> all_said = texts_of_all(said, ranks);

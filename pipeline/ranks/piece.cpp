@@ -12,7 +12,7 @@ OwnCells count_own_cells(const Piece& piece) {
   const CellList& cells = piece.document.cells;
   OwnCells count;
   std::vector<std::uint8_t> has_triangles(cells.size(), 0);
-  for (std::size_t t = 0; t < piece.mesh.elements.triangles().size(); ++t) {
+  for (std::size_t t = 0; t < piece.mesh.elements.size(); ++t) {
     has_triangles[static_cast<std::size_t>(piece.mesh.cells[t])] = 1;
     count.triangles += piece.is_ghost(t) ? 0 : 1;
   }

@@ -27,7 +27,7 @@ struct Piece {
 
   // Of pieces that one file was shared out in; else empty.
   SharedNumbers cell_ids;                  ///< one a cell: its number in the file, ascending
-  SharedNumbers triangle_ids;              ///< one a triangle of the mesh: its number in the file, ascending
+  SharedNumbers triangle_ids;              ///< one an element of the mesh: its number in the file, ascending
   std::vector<std::uint8_t> held_by_sets;  ///< one a point, as MeshShare has it
   std::vector<std::uint8_t> implied_by;    ///< one a point, as MeshShare has it
 
@@ -36,9 +36,9 @@ struct Piece {
 
 /// The cells of a piece that no other piece has.
 struct OwnCells {
-  std::int64_t triangles = 0;  ///< those of strips count one by one
+  std::int64_t triangles = 0;  ///< and quadrilaterals that are smoothed; those of strips count one by one
   std::int64_t cells = 0;
-  std::int64_t others = 0;            ///< that are no triangles
+  std::int64_t others = 0;            ///< that are no elements
   std::int64_t repeating = 0;         ///< those of them that are triangles but for a vertex that they repeat
   std::int64_t first_repeating = -1;  ///< the first of these, or none
 };

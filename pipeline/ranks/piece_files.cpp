@@ -101,7 +101,7 @@ void find_arrays(PieceFiles& files, const mpi::Communicator& ranks) {
   });
 }
 
-Piece read_piece(const PieceFiles& files, std::size_t number, Workers& workers) {
+Piece read_piece(const PieceFiles& files, std::size_t number, Quads quads, Workers& workers) {
   Piece piece;
   piece.number = number;
   piece.path = files.path_of(number);
@@ -114,7 +114,7 @@ Piece read_piece(const PieceFiles& files, std::size_t number, Workers& workers) 
     throw ReadError(piece.path, "holds texts at cells ('" + piece.document.cell_labels.front().name +
                                     "'), which a mesh in pieces may not have yet");
   }
-  piece.mesh = mesh_of_piece(piece.document, piece.path, workers);
+  piece.mesh = mesh_of_piece(piece.document, piece.path, quads, workers);
   piece.ghost_cells = ghost_cells_of(piece.document);
   return piece;
 }
@@ -170,7 +170,8 @@ std::string without_annotations(const std::string& text, const std::vector<Piece
 
 }  // namespace
 
-PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicator& ranks, Workers& workers) {
+PieceFiles read_pieces(const std::filesystem::path& path, Quads quads, const mpi::Communicator& ranks,
+                       Workers& workers) {
   PieceFiles files;
   files.path = path;
   std::vector<char> bytes;
@@ -187,7 +188,7 @@ PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicato
     const std::size_t count = files.file.pieces.size();
     for (std::size_t i = block_begin(count, ranks.rank(), ranks); i < block_begin(count, ranks.rank() + 1, ranks);
          ++i) {
-      files.pieces.push_back(read_piece(files, i, workers));
+      files.pieces.push_back(read_piece(files, i, quads, workers));
     }
   });
   find_arrays(files, ranks);

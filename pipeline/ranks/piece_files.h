@@ -54,8 +54,10 @@ struct PieceFiles {
 /// The coordinates and the arrays of a piece. Local.
 std::vector<PieceArray> arrays_of_piece(const MeshDocument& document);
 
-/// Reads it, and checks that all pieces have the same arrays. Collective. Throws ReadError on all ranks.
-PieceFiles read_pieces(const std::filesystem::path& path, const mpi::Communicator& ranks, Workers& workers);
+/// Reads it, and checks that all pieces have the same arrays. `quads`: what becomes of quadrilaterals. Collective.
+/// Throws ReadError on all ranks.
+PieceFiles read_pieces(const std::filesystem::path& path, Quads quads, const mpi::Communicator& ranks,
+                       Workers& workers);
 
 /// Where the pieces of `output` are to be, from its folder: those of the input itself where it is written back, else
 /// new files beside `output`, called after it. Local.

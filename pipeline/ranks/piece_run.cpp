@@ -93,7 +93,7 @@ class PieceMesh final : public StagedMesh {
     if (ranks_->size() == 1 && are_numbered_without_gaps(files_)) {
       need_whole_mesh(std::string(is_alone));
     }
-    if (const std::string_view kind = what_is_not_joined(files_, run_.options.quads, *ranks_); !kind.empty()) {
+    if (const std::string_view kind = what_is_not_joined(files_, run_.options.smoothing, *ranks_); !kind.empty()) {
       need_whole_mesh(std::string(kind));
     }
     if (run_.options.output && run_.options.fields != Fields::keep && !arrays_of_places_.empty()) {
@@ -243,7 +243,7 @@ class PieceMesh final : public StagedMesh {
   }
 
   void read_mesh_in_pieces() {
-    files_ = read_pieces(run_.options.input, *ranks_, run_.workers);
+    files_ = read_pieces(run_.options.input, run_.options.quads, *ranks_, run_.workers);
     require_output();
     run_.result.input.path = run_.options.input;
     run_.result.input.format = files_.file.piece_format;
@@ -270,7 +270,7 @@ class PieceMesh final : public StagedMesh {
     const Partition partition = run_.options.partition.value_or(has_enough ? Partition::keep : Partition::bisect);
     return partition == Partition::keep
                ? std::vector<std::int32_t>{}
-               : find_owners(partition, {points_of(files_, mesh_), mesh_.triangles, mesh_.ghost_triangles}, *ranks_);
+               : find_owners(partition, {points_of(files_, mesh_), mesh_.elements, mesh_.ghost_triangles}, *ranks_);
   }
 
   /// The points of the overlap in their local frame, from those of the rank's vertices, which are given up.
@@ -278,6 +278,14 @@ class PieceMesh final : public StagedMesh {
     const std::vector<Point2<double>> points = topology_->of_vertices<Point2<double>>(points_);
     release(points_);
     local_ = entered(topology_->frame_of(points, held_), points);
+  }
+
+  std::int64_t count_quadrilaterals() const {
+    std::int64_t own = 0;
+    for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
+      own += mesh_.elements[e].size() == 4 && !mesh_.is_ghost(e) ? 1 : 0;
+    }
+    return ranks_->sum(own);
   }
 
   void summarise() {
@@ -298,7 +306,8 @@ class PieceMesh final : public StagedMesh {
       run_.note(names_parallel_file(run_.options.input) ? "the pieces hold no cells: nothing to smooth"
                                                         : "the file holds no cells: nothing to smooth");
     }
-    std::ranges::move(notes_of_other_cells(cells_.others, cells_.repeating, cells_.first_repeating),
+    std::ranges::move(notes_of_other_cells(cells_.others, cells_.repeating, cells_.first_repeating,
+                                           overlap.elements().are_triangles() ? "triangle" : "element"),
                       std::back_inserter(result.notes));
     result.input.fixed_array = constraints_.fixed_array;
     result.input.fixed_array_vertices = topology_->count_vertices(constraints_.by_array);
@@ -309,6 +318,7 @@ class PieceMesh final : public StagedMesh {
     const RankComponents components = count_components(*topology_, reversed_);
     const MeshFacts facts{.vertices = ranks_->sum(vertices),
                           .elements = topology_->triangle_count(),
+                          .quadrilaterals = count_quadrilaterals(),
                           .other_cells = cells_.others,
                           .components = components.count,
                           .reoriented_triangles = components.reoriented_triangles,
@@ -353,7 +363,7 @@ class PieceMesh final : public StagedMesh {
   /// note_growth_bound() of the whole mesh. Each of the free corners is judged by the rank that owns it.
   void note_growth_bound(const LocalPoints& before) {
     const QualityReport& report = run_.result.before;
-    if (!may_have_growth_note(run_.options.smoothing, report)) {
+    if (!may_have_growth_note(run_.options.smoothing, report) || !topology_->overlap().elements().are_triangles()) {
       return;
     }
     const mpi::AscendingIds& ids = topology_->overlap().triangle_ids;

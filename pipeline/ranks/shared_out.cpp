@@ -55,6 +55,11 @@ class NewPiece final : public OriginalFile {
   bool takes_added_arrays() const override { return true; }
 };
 
+/// How many elements of a mesh a cell of that type counts as.
+std::int64_t count_elements(std::uint8_t type, std::span<const std::int32_t> vertices, Quads quads) {
+  return count_triangles(type, vertices) + (quads == Quads::smooth && quad_of_cell(type, vertices) ? 1 : 0);
+}
+
 /// Places of 0, 1, ... by the rank that each goes to.
 mpi::ByRank<std::int32_t> places_by_rank(std::span<const std::int32_t> targets, const mpi::Communicator& ranks) {
   auto places = mpi::lists_by_rank<std::int32_t>(ranks);
@@ -77,8 +82,9 @@ std::span<const std::byte> bytes_of(const std::vector<double>& values) {
 /// Sends what was read to where it belongs.
 class Sharing {
  public:
-  Sharing(MeshShare share, Partition partition, const std::filesystem::path& input, const mpi::Communicator& ranks)
-      : share_(std::move(share)), document_(share_.document), input_(input), ranks_(ranks) {
+  Sharing(MeshShare share, Partition partition, Quads quads, const std::filesystem::path& input,
+          const mpi::Communicator& ranks)
+      : share_(std::move(share)), document_(share_.document), quads_(quads), input_(input), ranks_(ranks) {
     first_point_ = ranks_.sum_before(std::ssize(document_.points) / 3);
     first_cell_ = ranks_.sum_before(std::ssize(document_.cells.types));
     point_count_ = ranks_.sum(std::ssize(document_.points) / 3);
@@ -154,7 +160,7 @@ class Sharing {
       std::vector<std::int64_t> first_triangles(cells.size());
       for (std::size_t c = 0; c < cells.size(); ++c) {
         first_triangles[c] = triangles;
-        triangles += count_triangles(cells.types[c], cells[c]);
+        triangles += count_elements(cells.types[c], cells[c], quads_);
       }
       const std::int64_t before = ranks_.sum_before(triangles);
       std::ranges::for_each(first_triangles, [before](std::int64_t& first) { first += before; });
@@ -287,7 +293,7 @@ class Sharing {
     std::vector<std::int64_t> ids;
     ids.reserve(cells.size());
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::int64_t count = count_triangles(cells.types[c], cells[c]);
+      const std::int64_t count = count_elements(cells.types[c], cells[c], quads_);
       for (std::int64_t t = 0; t < count; ++t) {
         ids.push_back(first_triangles_[c] + t);
       }
@@ -299,6 +305,7 @@ class Sharing {
 
   MeshShare share_;
   MeshDocument& document_;
+  Quads quads_;
   const std::filesystem::path& input_;
   const mpi::Communicator& ranks_;
   std::int64_t first_point_ = 0;  ///< of the rank's range
@@ -390,7 +397,7 @@ void require_poly_data(const MeshDocument& document, const std::filesystem::path
 
 }  // namespace
 
-PieceFiles shared_out(MeshShare share, Partition partition, const std::filesystem::path& input,
+PieceFiles shared_out(MeshShare share, Partition partition, Quads quads, const std::filesystem::path& input,
                       const std::optional<std::filesystem::path>& output, const mpi::Communicator& ranks,
                       Workers& workers, std::vector<std::string>& notes) {
   MeshDocument& document = share.document;
@@ -410,7 +417,7 @@ PieceFiles shared_out(MeshShare share, Partition partition, const std::filesyste
   const FileFormat format = output && extension_of(*output) == ".pvtp" ? FileFormat::vtp : FileFormat::vtu;
   PieceFiles files;
   files.path = input;
-  Piece piece = Sharing(std::move(share), partition, input, ranks).piece();
+  Piece piece = Sharing(std::move(share), partition, quads, input, ranks).piece();
   piece.number = static_cast<std::size_t>(ranks.rank());
   piece.path = input;
   MeshDocument& made = piece.document;
@@ -424,7 +431,7 @@ PieceFiles shared_out(MeshShare share, Partition partition, const std::filesyste
     if (format == FileFormat::vtp) {
       require_poly_data(made, *output);
     }
-    piece.mesh = mesh_of_piece(made, input, workers);
+    piece.mesh = mesh_of_piece(made, input, quads, workers);
     piece.ghost_cells.assign(made.cells.size(), 0);
     const std::vector<std::string> sources(static_cast<std::size_t>(ranks.size()), input.filename().string());
     NewParallelFile parallel = make_parallel_file(format, made, sources);

@@ -7,6 +7,7 @@
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/mpi/communicator.h"
 #include "trismooth/pipeline/partition.h"
+#include "trismooth/pipeline/quads.h"
 #include "trismooth/pipeline/ranks/mesh_share.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 
@@ -19,11 +20,11 @@ namespace trismooth {
 /// GlobalPointIds and the cell array GlobalCellIds of these numbers; other arrays of these names, and cell arrays
 /// vtkGhostType, get others.
 ///
-/// `input`: the file, for messages. `output`: the parallel file to be written, if any. Collective. Throws ReadError on
-/// all ranks for more points or cells than 32 bits number on one of them, and where the output's pieces are .vtp and
-/// cannot hold the cells, std::invalid_argument. Notes go to `notes`, on rank 0. Complexity: n log n in what a rank
-/// reads and gets. No rank has the whole mesh, unless it has read it.
-PieceFiles shared_out(MeshShare share, Partition partition, const std::filesystem::path& input,
+/// `quads`: what becomes of quadrilaterals; `input`: the file, for messages. `output`: the parallel file to be written,
+/// if any. Collective. Throws ReadError on all ranks for more points or cells than 32 bits number on one of them, and
+/// where the output's pieces are .vtp and cannot hold the cells, std::invalid_argument. Notes go to `notes`, on rank 0.
+/// Complexity: n log n in what a rank reads and gets. No rank has the whole mesh, unless it has read it.
+PieceFiles shared_out(MeshShare share, Partition partition, Quads quads, const std::filesystem::path& input,
                       const std::optional<std::filesystem::path>& output, const mpi::Communicator& ranks,
                       Workers& workers, std::vector<std::string>& notes);
 

@@ -60,7 +60,8 @@ Carrier::Carrier(const RingView& rings, const ElementList& elements, std::span<c
   }
   for (const auto corners : elements) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto [a, b] = std::minmax(corners[i], next_corner(corners, i));
+      const std::int32_t a = std::min(corners[i], next_corner(corners, i));
+      const std::int32_t b = std::max(corners[i], next_corner(corners, i));
       if (!rings.is_free(a) && !rings.is_free(b)) {
         edges_.push_back({a, b});
       }

@@ -30,7 +30,7 @@ CASES = (
     ("hilly", ["--project", "xy", "--annotate"], "--project"),
     ("tilted", [], "a mesh that lies in no plane z = constant"),
     ("cut", ["--merge", "0"], "--merge"),
-    ("of six nodes", [], "triangles of six nodes"),
+    ("of six nodes", [], "elements with nodes in the middle of their sides"),
     ("listed again", [], "triangles that are listed again"),
     ("marked", [], "what 'medit:ref' marks"),
 )

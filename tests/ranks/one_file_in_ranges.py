@@ -112,6 +112,15 @@ class OneFileInRanges(ranks_tool.RanksTest):
         raw_vtu.write(self.path("large.vtu"), mesh, raw_vtu.Form())
         self.assert_by_ranges(self.check("large.vtu", 2, "--max-sweeps", "3", "--precision", "single", "--form", "a"))
 
+    def test_quadrilaterals(self):
+        mesh = pieces.grid_of_both_kinds(40)
+        raw_vtu.write(self.path("both.vtu"), mesh, raw_vtu.Form())
+        self.write_off("both.off", mesh)
+        for options in ([], ["--method", "mean-ratio", "--form", "a"], ["--quads", "hold"]):
+            self.assert_by_ranges(self.check("both.off", 2, *options))
+            self.assert_by_ranges(self.check("both.vtu", 3, *options))
+            self.assert_pieces(mesh)
+
     def test_off_of_any_looks(self):
         mesh = self.mixed()
         for number, looks in enumerate([{}, {"end": "\r\n"}, {"end": "\r"}, {"comments": True},

@@ -2,6 +2,7 @@
 """Meshes in pieces as VTK's programs write them, and what can be read of them: ASCII, by hand."""
 
 import os
+import random
 import re
 import xml.etree.ElementTree
 
@@ -17,6 +18,23 @@ class Mesh:
         self.types = [TRIANGLE if len(cell) == 3 else 9 for cell in cells]
         self.point_arrays = {}
         self.cell_arrays = {}
+
+
+def grid_of_both_kinds(columns):
+    """Squares of a grid, a third of them two triangles, listed either way; more than a thousand of each kind."""
+    dice = random.Random(8)
+    row = columns + 1
+    points = [(x + dice.uniform(-0.3, 0.3), y + dice.uniform(-0.3, 0.3), 0.0) if 0 < x < columns and 0 < y < columns
+              else (float(x), float(y), 0.0) for y in range(row) for x in range(row)]
+    cells = []
+    for y in range(columns):
+        for x in range(columns):
+            a, b, c, d = y * row + x, y * row + x + 1, (y + 1) * row + x + 1, (y + 1) * row + x
+            square = [[a, b, c], [a, c, d]] if dice.random() < 0.33 else [[a, b, c, d]]
+            cells += [cell[::-1] if dice.random() < 0.3 else cell for cell in square]
+    mesh = Mesh(points, cells)
+    mesh.cell_arrays["material"] = [int(points[cell[0]][0] > columns / 2) for cell in cells]
+    return mesh
 
 
 def read_off(path):

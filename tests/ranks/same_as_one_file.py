@@ -107,7 +107,24 @@ class SameAsOneFile(ranks_tool.RanksTest):
                 report = self.report_over(ranks, "smooth", "mixed.pvtu", "out.pvtu", "--quads", "hold", *options)
                 self.assertEqual(without_run(report), without_run(whole))
 
-    def test_quadrilaterals_are_smoothed_over_ranks_to_the_same_bits(self):
+    def test_quadrilaterals_are_smoothed_in_pieces_to_the_same_bits(self):
+        mesh = pieces.grid_of_both_kinds(48)
+        parts = pieces.cut(mesh, pieces.stripes(mesh, 5), 5, global_ids=False)
+        pieces.write_pieces(self.path("both.pvtu"), parts)
+        pieces.write_vtu(self.path("merged.vtu"), pieces.merged(parts))
+        for options in ([], ["--method", "mean-ratio"], ["--precision", "single", "--form", "a"],
+                        ["--region-array", "none", "--require", "quadrilateral.min_shape>=0.01"],
+                        ["--guard", "off", "--method", "laplacian", "--max-sweeps", "7"]):
+            whole = self.report("smooth", "merged.vtu", "smooth.vtu", *options)
+            self.assertGreater(min(kind["elements"] for kind in whole["after"]["kinds"]), 1024)
+            for ranks, name in ((2, "both.pvtu"), (5, "both.pvtu"), (3, "merged.vtu")):
+                with self.subTest(options=options, ranks=ranks, name=name):
+                    report = self.report_over(ranks, "smooth", name, "out.pvtu", *options)
+                    self.assertEqual(without_run(report), without_run(whole))
+        whole = self.report("quality", "merged.vtu")
+        self.assertEqual(without_run(self.report_over(3, "quality", "merged.vtu")), without_run(whole))
+
+    def test_what_is_done_with_quadrilaterals_by_one_rank_alone_has_the_same_bits(self):
         parts = pieces.cut(self.mixed_mesh(), pieces.stripes(self.mixed_mesh(), 5), 5, global_ids=False)
         pieces.write_pieces(self.path("mixed.pvtu"), parts)
         pieces.write_vtu(self.path("merged.vtu"), pieces.merged(parts))
@@ -117,9 +134,10 @@ class SameAsOneFile(ranks_tool.RanksTest):
             self.assertGreater(whole["input"]["quadrilaterals"], 10)
             if more:
                 self.assertGreater(whole["smoothing"]["sliding"]["slid"], 0)
-            for ranks, name in ((1, "mixed.pvtu"), (2, "mixed.pvtu"), (3, "merged.vtu"), (4, "mixed.pvtu")):
+            for ranks, name, output in ((1, "mixed.pvtu", "out.pvtu"), (2, "mixed.pvtu", "out.pvtu"),
+                                        (3, "merged.vtu", "out.vtu"), (4, "mixed.pvtu", "out.pvtu")):
                 with self.subTest(ranks=ranks, name=name, more=more):
-                    report = self.report_over(ranks, "smooth", name, "out.pvtu", *options)
+                    report = self.report_over(ranks, "smooth", name, output, *options)
                     self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
                     self.assertEqual(report["after"]["kinds"], whole["after"]["kinds"])
                     note = report["smoothing"].get("backend_note") or ""

@@ -40,7 +40,7 @@ RankCells count_rank_cells(const PieceFiles& files, const mpi::Communicator& ran
 
 std::int64_t number_of_triangle(const PieceFiles& files, std::int64_t first, std::int32_t triangle) {
   for (const Piece& piece : files.pieces) {
-    const auto count = static_cast<std::int32_t>(piece.mesh.elements.triangles().size());
+    const auto count = static_cast<std::int32_t>(piece.mesh.elements.size());
     if (triangle >= 0 && triangle < count) {
       return number_of_cell(piece, piece.mesh.cells[static_cast<std::size_t>(triangle)], first);
     }

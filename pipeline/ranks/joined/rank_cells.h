@@ -14,7 +14,7 @@ namespace trismooth {
 struct RankCells {
   std::int64_t first = 0;  ///< the number of the rank's first cell among them
   std::int64_t cells = 0;
-  std::int64_t others = 0;                     ///< that are no triangles
+  std::int64_t others = 0;                     ///< that are no elements
   std::int64_t repeating = 0;                  ///< those of them that are triangles but for a vertex that they repeat
   std::optional<std::size_t> first_repeating;  ///< the number_of_cell() of the first of these
 };

@@ -11,12 +11,13 @@
 #include "trismooth/base/machine/release.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/ranks/agreement.h"
+#include "trismooth/smoothing/backend_choice.h"
 
 namespace trismooth {
 
 namespace {
 
-bool has_six_nodes(const Piece& piece) {
+bool has_middle_nodes(const Piece& piece) {
   return !piece.mesh.quadratics.empty();
 }
 
@@ -49,14 +50,14 @@ bool has_ghosts(const PieceFiles& files) {
       files.pieces, [](const Piece& piece) { return std::ranges::any_of(piece.ghost_cells, std::identity()); });
 }
 
-/// Whether that piece's points and triangles are the mesh's as they stand.
+/// Whether that piece's points and elements are the mesh's as they stand.
 bool is_mesh_of_its_own(const Piece& piece) {
   return std::ranges::adjacent_find(piece.ids, std::greater_equal<>()) == piece.ids.end();
 }
 
 void take_piece(Piece& piece, RankMesh& mesh) {
   mesh.ids = piece.ids;
-  mesh.triangles = piece.mesh.elements.triangles();
+  mesh.elements = piece.mesh.elements;
   mesh.in_other_cell = std::move(piece.mesh.in_other_cell);
   mesh.triangle_ids = piece.triangle_ids;
   piece.vertices.resize(piece.ids.size());
@@ -73,6 +74,21 @@ SharedNumbers joined_ids(const PieceFiles& files) {
   return ids;
 }
 
+/// The elements of all pieces, by the rank's numbers of vertices.
+template <class Corners>
+std::vector<Corners> joined_elements(const PieceFiles& files) {
+  std::vector<Corners> joined;
+  for (const Piece& piece : files.pieces) {
+    for (const std::span<const std::int32_t> corners : piece.mesh.elements) {
+      Corners& element = joined.emplace_back();
+      element.fill(no_corner);
+      std::ranges::transform(corners, element.begin(),
+                             [&](std::int32_t v) { return piece.vertices[static_cast<std::size_t>(v)]; });
+    }
+  }
+  return joined;
+}
+
 void join(PieceFiles& files, RankMesh& mesh) {
   mesh.ids = joined_ids(files);
   mesh.in_other_cell.assign(mesh.ids.size(), 0);
@@ -84,21 +100,21 @@ void join(PieceFiles& files, RankMesh& mesh) {
       piece.vertices[i] = static_cast<std::int32_t>(v);
       mesh.in_other_cell[v] |= piece.mesh.in_other_cell[i];
     }
-    for (const auto& [a, b, c] : piece.mesh.elements.triangles()) {
-      mesh.joined_triangles.push_back({piece.vertices[static_cast<std::size_t>(a)],
-                                       piece.vertices[static_cast<std::size_t>(b)],
-                                       piece.vertices[static_cast<std::size_t>(c)]});
-    }
     triangle_ids.insert(triangle_ids.end(), piece.triangle_ids.begin(), piece.triangle_ids.end());
   }
-  mesh.triangles = mesh.joined_triangles;
+  const bool are_triangles =
+      std::ranges::all_of(files.pieces, [](const Piece& piece) { return piece.mesh.elements.are_triangles(); });
+  mesh.elements =
+      are_triangles
+          ? ElementList(mesh.joined_elements.emplace<std::vector<Triangle>>(joined_elements<Triangle>(files)))
+          : ElementList(mesh.joined_elements.emplace<std::vector<MixedElement>>(joined_elements<MixedElement>(files)));
   mesh.triangle_ids = std::move(triangle_ids);
 }
 
 void mark_ghosts(const PieceFiles& files, RankMesh& mesh) {
-  mesh.ghost_triangles.reserve(mesh.triangles.size());
+  mesh.ghost_triangles.reserve(mesh.elements.size());
   for (const Piece& piece : files.pieces) {
-    for (std::size_t t = 0; t < piece.mesh.elements.triangles().size(); ++t) {
+    for (std::size_t t = 0; t < piece.mesh.elements.size(); ++t) {
       mesh.ghost_triangles.push_back(piece.is_ghost(t) ? 1 : 0);
     }
   }
@@ -106,14 +122,17 @@ void mark_ghosts(const PieceFiles& files, RankMesh& mesh) {
 
 }  // namespace
 
-std::string_view what_is_not_joined(const PieceFiles& files, Quads quads, const mpi::Communicator& ranks) {
+std::string_view what_is_not_joined(const PieceFiles& files, const SmoothingOptions& options,
+                                    const mpi::Communicator& ranks) {
   const bool has_quads =
-      std::ranges::any_of(files.pieces, [](const Piece& piece) { return piece.mesh.held_quads > 0; });
-  if (quads == Quads::smooth && ranks.any(has_quads)) {
+      std::ranges::any_of(files.pieces, [](const Piece& piece) { return piece.mesh.count_quadrilaterals() > 0; });
+  const bool takes_quads =
+      backend_of(options).takes_quadrilaterals_in_parts() && options.topology != Topology::halfedge;
+  if (!takes_quads && ranks.any(has_quads)) {
     return "quadrilaterals";
   }
-  if (ranks.any(std::ranges::any_of(files.pieces, &has_six_nodes))) {
-    return "triangles of six nodes";
+  if (ranks.any(std::ranges::any_of(files.pieces, &has_middle_nodes))) {
+    return "elements with nodes in the middle of their sides";
   }
   return heights_differ(files, ranks) ? "a mesh that lies in no plane z = constant" : "";
 }
@@ -150,7 +169,7 @@ RankMesh join_pieces(PieceFiles& files, const mpi::Communicator& ranks) {
     if (has_ghosts(files)) {
       mark_ghosts(files, mesh);
     }
-    check_document_size(mesh.ids.size(), mesh.triangles.size(), files.path);
+    check_document_size(mesh.ids.size(), mesh.elements.size(), files.path);
     for (Piece& piece : files.pieces) {
       release(piece.mesh.points);
     }

@@ -8,12 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/mpi/communicator.h"
+#include "trismooth/mpi/overlap.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 #include "trismooth/pipeline/ranks/shared_numbers.h"
+#include "trismooth/smoothing/options.h"
 
 namespace trismooth {
 
@@ -28,20 +30,21 @@ struct RankMesh {
   ~RankMesh() = default;
 
   SharedNumbers ids;                          ///< of the vertices in the whole mesh, ascending
-  std::vector<std::uint8_t> in_other_cell;    ///< one a vertex: 1 where a cell that is not a triangle uses it
-  std::span<const Triangle> triangles;        ///< of piece after piece, copies of other pieces' too
-  std::vector<Triangle> joined_triangles;     ///< where these are not those of the piece
-  std::vector<std::uint8_t> ghost_triangles;  ///< one a triangle: 1 where it is such a copy; empty: there are none
+  std::vector<std::uint8_t> in_other_cell;    ///< one a vertex: 1 where a cell that is no element uses it
+  ElementList elements;                       ///< of piece after piece, copies of other pieces' too
+  OwnElements joined_elements;                ///< where these are not those of the piece
+  std::vector<std::uint8_t> ghost_triangles;  ///< one an element: 1 where it is such a copy; empty: there are none
   SharedNumbers triangle_ids;                 ///< their numbers in the whole mesh, ascending; empty: as they come
   Storage storage = Storage::float64;         ///< what coordinates are rounded to in the files
 
-  bool is_ghost(std::size_t triangle) const { return !ghost_triangles.empty() && ghost_triangles[triangle] != 0; }
+  bool is_ghost(std::size_t element) const { return !ghost_triangles.empty() && ghost_triangles[element] != 0; }
 };
 
-/// What of a mesh keeps it from being put together in pieces, for people: quadrilaterals that `quads` wants smoothed,
-/// triangles of six nodes, heights that differ.
+/// What of a mesh keeps it from being put together in pieces, for people: quadrilaterals that are to be smoothed, where
+/// these options do that of whole meshes alone, elements with nodes in the middle of their sides, heights that differ.
 /// Empty where nothing does. Collective.
-std::string_view what_is_not_joined(const PieceFiles& files, Quads quads, const mpi::Communicator& ranks);
+std::string_view what_is_not_joined(const PieceFiles& files, const SmoothingOptions& options,
+                                    const mpi::Communicator& ranks);
 
 /// Whether the vertices of the rank's pieces are numbered from 0 on, with no number missing. A mesh that is gathered
 /// is; where ids are missing, that is another mesh. Local.

@@ -86,7 +86,7 @@ class RankValues {
       : files_(files), topology_(topology), ranks_(topology.ranks()), overlap_triangles_(triangles), type_(array.type) {
     std::size_t count = 0;
     for (const Piece& piece : files.pieces) {
-      count += piece.mesh.elements.triangles().size();
+      count += piece.mesh.elements.size();
     }
     keys_.reserve(count);
     std::size_t own = 0;  // triangles before, but for copies
@@ -97,7 +97,7 @@ class RankValues {
       }
       visit_scalar_type(type_, [&](auto zero) {
         const auto numbers = values->as<decltype(zero)>();
-        for (std::size_t t = 0; t < piece.mesh.elements.triangles().size(); ++t) {
+        for (std::size_t t = 0; t < piece.mesh.elements.size(); ++t) {
           const auto value = numbers[static_cast<std::size_t>(piece.mesh.cells[t])];
           keys_.push_back(key_of(value));
           if constexpr (std::is_floating_point_v<decltype(zero)>) {
@@ -203,7 +203,7 @@ class RankValues {
   void for_own(const Visit& visit) const {
     std::size_t t = 0;
     for (const Piece& piece : files_.pieces) {
-      for (std::size_t i = 0; i < piece.mesh.elements.triangles().size(); ++i, ++t) {
+      for (std::size_t i = 0; i < piece.mesh.elements.size(); ++i, ++t) {
         if (!piece.is_ghost(i)) {
           visit(keys_[t]);
         }
@@ -353,7 +353,7 @@ class RankRegionFinder {
     std::vector<std::uint64_t> own;
     std::size_t t = 0;
     for (const Piece& piece : files_.pieces) {
-      for (std::size_t i = 0; i < piece.mesh.elements.triangles().size(); ++i, ++t) {
+      for (std::size_t i = 0; i < piece.mesh.elements.size(); ++i, ++t) {
         if (!piece.is_ghost(i) && (own.empty() || own.back() != of_triangle[t])) {
           own.push_back(of_triangle[t]);
         }

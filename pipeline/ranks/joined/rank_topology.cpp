@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "trismooth/base/hold.h"
+#include "trismooth/base/index_view.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mpi/component_labels.h"
 #include "trismooth/mpi/shared_frame.h"
@@ -40,9 +41,9 @@ auto naming_file(const std::filesystem::path& path, const Function& function) {
 RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> named,
                            std::span<const std::int32_t> owners, const std::filesystem::path& path,
                            std::shared_ptr<const mpi::Communicator> ranks, Workers& workers)
-    : ranks_(std::move(ranks)), own_count_(mesh.triangles.size()), triangle_ids_(mesh.triangle_ids) {
+    : ranks_(std::move(ranks)), own_count_(mesh.elements.size()), triangle_ids_(mesh.triangle_ids) {
   if (!mesh.ghost_triangles.empty()) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t t = 0; t < mesh.elements.size(); ++t) {
       if (!mesh.is_ghost(t)) {
         own_places_.push_back(static_cast<std::int32_t>(t));
       }
@@ -51,13 +52,14 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
   }
   triangle_count_ = ranks_->sum(static_cast<std::int64_t>(own_count_));
   first_id_ = ranks_->sum_before(static_cast<std::int64_t>(own_count_));
-  const mpi::LocalMesh local{mesh.triangles, mesh.ids, owners, mesh.ghost_triangles, mesh.triangle_ids};
+  const IndexView elements = mesh.elements.visit([](const auto& listed) { return IndexView(listed); });
+  const mpi::LocalMesh local{elements, mesh.ids, owners, mesh.ghost_triangles, mesh.triangle_ids};
   const Constraints constraints{.fixed = named, .other_cells = mesh.in_other_cell};
   naming_file(path, [&] {
-    overlap_ = mpi::build_overlap(local, mesh.triangles, constraints, false, ranks_, workers);
+    overlap_ = mpi::build_overlap(local, mesh.elements, constraints, false, ranks_, workers);
     ranks_->on_all([&] {
-      topology_ = overlap_.elements().visit([&](const auto& elements) {
-        return connect_triangles(overlap_.vertex_count(), elements, workers, overlap_.part.ghosts);
+      topology_ = overlap_.elements().visit([&](const auto& listed) {
+        return connect_triangles(overlap_.vertex_count(), listed, workers, overlap_.part.ghosts);
       });
     });
   });

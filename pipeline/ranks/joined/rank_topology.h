@@ -20,7 +20,7 @@
 namespace trismooth {
 
 /// How the whole mesh hangs together, as far as a rank needs it to report on it: the vertices that it owns with all of
-/// their triangles.
+/// their elements. What is said of triangles holds for quadrilaterals.
 class RankTopology {
  public:
   /// `named`: one flag a vertex of `mesh`, not zero where the user holds it. `owners`: as mpi::LocalMesh has them.
@@ -57,9 +57,9 @@ class RankTopology {
   /// Collective.
   std::int64_t count_vertices(std::span<const std::uint8_t> flags) const;
 
-  /// Triangles of the whole mesh. Local.
+  /// Elements of the whole mesh. Local.
   std::int64_t triangle_count() const { return triangle_count_; }
-  /// Triangles of the rank's mesh that are no copies. Local.
+  /// Elements of the rank's mesh that are no copies. Local.
   std::size_t own_triangles() const { return own_count_; }
   /// The number of one of these in the whole mesh; it ascends. Local.
   std::int64_t own_id(std::size_t own_triangle) const {
