@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "trismooth/base/machine/release.h"
 #include "trismooth/base/machine/workers.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -36,19 +41,78 @@ bool is_deleted(const PolyConnectivity& mesh, FaceHandle f) {
   return mesh.has_face_status() && mesh.status(f).deleted();
 }
 
-Triangle corners_of(const PolyConnectivity& mesh, FaceHandle f) {
-  Triangle triangle{};
+/// Calls visit(corner) for the corners of a face, in turn, always from the same one on.
+template <class Visit>
+void for_corners(const PolyConnectivity& mesh, FaceHandle f, const Visit& visit) {
   const HalfedgeHandle first = mesh.halfedge_handle(f);
   HalfedgeHandle h = first;
-  for (std::int32_t& corner : triangle) {
-    corner = mesh.from_vertex_handle(h).idx();
+  do {
+    visit(mesh.to_vertex_handle(h).idx());
     h = mesh.next_halfedge_handle(h);
+  } while (h != first);
+}
+
+/// The corners of a face of three or four sides; nothing where it has more.
+std::optional<MixedElement> element_of(const PolyConnectivity& mesh, FaceHandle f) {
+  MixedElement corners{no_corner, no_corner, no_corner, no_corner};
+  std::size_t count = 0;
+  for_corners(mesh, f, [&](std::int32_t corner) {
+    if (count < corners.size()) {
+      corners[count] = corner;
+    }
+    ++count;
+  });
+  if (count < 3) {
+    throw std::invalid_argument("face " + std::to_string(f.idx()) + " has " + std::to_string(count) +
+                                " corners, expected three or more");
   }
-  if (h != first) {
-    throw std::invalid_argument("face " + std::to_string(f.idx()) + " has " + std::to_string(mesh.valence(f)) +
-                                " corners, and only triangles are taken; mesh.triangulate() cuts it");
+  return count <= corners.size() ? std::optional(corners) : std::nullopt;
+}
+
+/// Elements that come one after the other: as triangles up to the first quadrilateral.
+class Listed {
+ public:
+  explicit Listed(std::size_t most) : most_(most) { triangles_.reserve(most); }
+
+  void append(const MixedElement& element) {
+    if (mixed_.empty() && corner_count(element) == 3) {
+      triangles_.push_back({element[0], element[1], element[2]});
+      return;
+    }
+    if (mixed_.empty()) {
+      mixed_.reserve(most_);
+      std::ranges::transform(triangles_, std::back_inserter(mixed_), [](const Triangle& t) { return as_mixed(t); });
+      release(triangles_);
+    }
+    mixed_.push_back(element);
   }
-  return triangle;
+  OwnElements take() && { return mixed_.empty() ? OwnElements(std::move(triangles_)) : OwnElements(std::move(mixed_)); }
+
+ private:
+  std::size_t most_;
+  std::vector<Triangle> triangles_;
+  std::vector<MixedElement> mixed_;
+};
+
+void append_polygon(const PolyConnectivity& mesh, FaceHandle f, FlatMesh& flat) {
+  std::vector<std::int32_t> corners;
+  for_corners(mesh, f, [&](std::int32_t corner) { corners.push_back(corner); });
+  flat.polygons.append(cell_type::polygon, corners);
+  flat.polygon_faces.push_back(f.idx());
+}
+
+/// Whether the face is not deleted and these are the corners that for_corners() visits.
+bool is_face_of(const PolyConnectivity& mesh, FaceHandle f, std::span<const std::int32_t> corners) {
+  if (is_deleted(mesh, f)) {
+    return false;
+  }
+  std::size_t same = 0;
+  std::size_t count = 0;
+  for_corners(mesh, f, [&](std::int32_t corner) {
+    same += count < corners.size() && corners[count] == corner ? 1 : 0;
+    ++count;
+  });
+  return count == corners.size() && same == count;
 }
 
 /// The marks of what a mesh says by its status.
@@ -73,7 +137,7 @@ bool holds(const OpenMesh::Attributes::StatusInfo& status) {
 }
 
 /// Marks what is locked or a feature.
-void mark_held(const PolyConnectivity& mesh, const FlatMesh& flat, Marks& marks) {
+void mark_held(const PolyConnectivity& mesh, Marks& marks) {
   if (mesh.has_vertex_status()) {
     for (int v = 0; v < static_cast<int>(mesh.n_vertices()); ++v) {
       // A deleted vertex that a face still has stays as well.
@@ -94,11 +158,9 @@ void mark_held(const PolyConnectivity& mesh, const FlatMesh& flat, Marks& marks)
     }
   }
   if (mesh.has_face_status()) {
-    for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
-      if (mesh.status(FaceHandle(flat.faces[t])).locked()) {
-        for (const std::int32_t corner : flat.triangles[t]) {
-          marks.add(VertexHandle(corner));
-        }
+    for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
+      if (const auto& status = mesh.status(FaceHandle(f)); status.locked() && !status.deleted()) {
+        for_corners(mesh, FaceHandle(f), [&](std::int32_t corner) { marks.add(VertexHandle(corner)); });
       }
     }
   }
@@ -122,10 +184,8 @@ std::vector<std::int32_t> regions_of(const PolyConnectivity& mesh, const FlatMes
     return {};
   }
   const auto number = numbers.of(mesh, "MeshConstraints::regions");
-  std::vector<std::int64_t> regions(flat.triangles.size());
-  for (std::size_t t = 0; t < regions.size(); ++t) {
-    regions[t] = number(FaceHandle(flat.faces[t]));
-  }
+  std::vector<std::int64_t> regions(flat.faces.size());
+  std::ranges::transform(flat.faces, regions.begin(), [&](std::int32_t f) { return number(FaceHandle(f)); });
   using Limits = std::numeric_limits<std::int32_t>;
   if (std::ranges::all_of(regions, [](std::int64_t r) { return Limits::min() <= r && r <= Limits::max(); })) {
     return {regions.begin(), regions.end()};
@@ -146,22 +206,43 @@ std::vector<std::int32_t> regions_of(const PolyConnectivity& mesh, const FlatMes
 FlatMesh flat_mesh(const PolyConnectivity& mesh) {
   FlatMesh flat{.vertices = static_cast<std::int64_t>(mesh.n_vertices()),
                 .all_faces = static_cast<std::int64_t>(mesh.n_faces()),
-                .triangles = {},
+                .elements = {},
                 .faces = {},
+                .polygons = {},
+                .polygon_faces = {},
                 .in_a_cell = std::vector<std::uint8_t>(mesh.n_vertices(), 0)};
-  flat.triangles.reserve(mesh.n_faces());
+  Listed listed(mesh.n_faces());
   flat.faces.reserve(mesh.n_faces());
   for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
     if (is_deleted(mesh, FaceHandle(f))) {
       continue;
     }
-    flat.faces.push_back(f);
-    flat.triangles.push_back(corners_of(mesh, FaceHandle(f)));
-    for (const std::int32_t corner : flat.triangles.back()) {
-      flat.in_a_cell[static_cast<std::size_t>(corner)] = 1;
+    if (const auto element = element_of(mesh, FaceHandle(f))) {
+      flat.faces.push_back(f);
+      listed.append(*element);
+      for (const std::int32_t corner : corners_of(*element)) {
+        flat.in_a_cell[static_cast<std::size_t>(corner)] = 1;
+      }
+    } else {
+      append_polygon(mesh, FaceHandle(f), flat);
     }
   }
+  for (const std::int32_t corner : flat.polygons.connectivity) {
+    flat.in_a_cell[static_cast<std::size_t>(corner)] = 1;
+  }
+  flat.elements = std::move(listed).take();
   return flat;
+}
+
+CellList cells_of(const FlatMesh& mesh) {
+  CellList cells = mesh.polygons;
+  mesh.elements.list().visit([&](const auto& listed) {
+    for (const auto& element : listed) {
+      const std::span<const std::int32_t> corners = corners_of(element);
+      cells.append(cell_type::of_face(corners.size()), corners);
+    }
+  });
+  return cells;
 }
 
 bool has_faces_of(const PolyConnectivity& mesh, const FlatMesh& flat, Workers& workers) {
@@ -174,30 +255,30 @@ bool has_faces_of(const PolyConnectivity& mesh, const FlatMesh& flat, Workers& w
     }
     deleted.fetch_add(deleted_here, std::memory_order_relaxed);
   });
-  workers.for_blocks(std::ssize(flat.triangles), faces_grain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t t = begin; t < end && !differs; ++t) {
-      const FaceHandle f(flat.faces[t]);
-      HalfedgeHandle h = mesh.halfedge_handle(f);
-      const bool is_same = !is_deleted(mesh, f) && std::ranges::all_of(flat.triangles[t], [&](std::int32_t corner) {
-        const bool is_corner = mesh.from_vertex_handle(h).idx() == corner;
-        h = mesh.next_halfedge_handle(h);
-        return is_corner;
-      });
-      if (!is_same) {
-        differs = true;
+  const auto compare = [&](const std::vector<std::int32_t>& faces, const auto& corners) {
+    workers.for_blocks(std::ssize(faces), faces_grain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end) && !differs; ++i) {
+        if (!is_face_of(mesh, FaceHandle(faces[i]), corners[i])) {
+          differs = true;
+        }
       }
-    }
-  });
-  return !differs && deleted == flat.all_faces - std::ssize(flat.triangles);
+    });
+  };
+  compare(flat.faces, flat.elements.list());
+  compare(flat.polygon_faces, flat.polygons);
+  return !differs && deleted == flat.all_faces - std::ssize(flat.faces) - std::ssize(flat.polygon_faces);
 }
 
 KeptConstraints flat_constraints(const PolyConnectivity& mesh, const FlatMesh& flat,
                                  const MeshConstraints& constraints) {
   Marks fixed(mesh);
-  mark_held(mesh, flat, fixed);
+  mark_held(mesh, fixed);
   mark_numbered(mesh, constraints.fixed, "MeshConstraints::fixed", fixed);
   Marks other_cells(mesh);
   mark_numbered(mesh, constraints.other_cells, "MeshConstraints::other_cells", other_cells);
+  for (const std::int32_t corner : flat.polygons.connectivity) {
+    other_cells.add(VertexHandle(corner));
+  }
   const std::vector<std::uint8_t> fixed_flags = std::move(fixed).take();
   const std::vector<std::uint8_t> other_flags = std::move(other_cells).take();
   const std::vector<std::int32_t> regions = regions_of(mesh, flat, constraints.regions);

@@ -213,8 +213,10 @@ using FaceNumbers = ElementNumbers<OpenMesh::FaceHandle>;
 struct MeshConstraints {
   VertexNumbers fixed{};                ///< one a vertex; not zero: fixed
   ArrayView<std::int32_t> fixed_ids{};  ///< vertices by idx(), in any order, also more than once
-  VertexNumbers other_cells{};          ///< one a vertex; not zero: used by a cell that is no face of this mesh, fixed
-  FaceNumbers regions{};                ///< one a face; ends of edges between two regions are fixed
+  VertexNumbers other_cells{};          ///< one a vertex; not zero: used by a cell that is no face of this mesh, fixed,
+                                        ///< as the corners of faces with five sides or more are
+  FaceNumbers regions{};                ///< one a face; ends of edges between two regions are fixed; those of faces
+                                        ///< with five sides or more say nothing
   Sliding slide{};                      ///< which of those that boundaries and interfaces hold move along them
 };
 

@@ -72,14 +72,6 @@ std::vector<double> triples_of(const NumberRows<T>& points) {
   return triples;
 }
 
-CellList cells_of(std::span<const Triangle> triangles) {
-  CellList cells;
-  for (const Triangle& t : triangles) {
-    cells.append(cell_type::triangle, t);
-  }
-  return cells;
-}
-
 InPlane::InPlane(const PlaneFit& fit, std::span<const double> xyz, std::span<const std::uint8_t> counts,
                  Workers& workers)
     : plane(fit.plane) {

@@ -10,12 +10,10 @@
 #include <vector>
 
 #include "trismooth/base/array_layout.h"
-#include "trismooth/base/cell_list.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/point2.h"
 #include "trismooth/base/storage.h"
-#include "trismooth/base/triangle_view.h"
 #include "trismooth/space/plane.h"
 
 namespace trismooth {
@@ -70,9 +68,6 @@ std::vector<Point2<double>> pairs_of(const NumberRows<T>& points, std::span<cons
 /// A copy of points of three numbers. Complexity: linear.
 template <class T>
 std::vector<double> triples_of(const NumberRows<T>& points);
-
-/// The cells that limit how far a vertex may be from its plane: see fit_plane().
-CellList cells_of(std::span<const Triangle> triangles);
 
 /// A mesh laid into a plane.
 struct InPlane {

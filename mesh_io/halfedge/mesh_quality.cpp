@@ -16,19 +16,20 @@ namespace {
 template <class T>
 QualityReport report_of(const NumberRows<const T>& points, const FlatMesh& mesh, const QualityOptions& options) {
   const bool are_all_finite = require_finite(points, mesh.in_a_cell);
+  const IndexView elements(mesh.elements.list());
   if (const auto axes = exact_axes(points, mesh.in_a_cell)) {
     const NumberRows<const T> pairs = along(points, *axes);
     if (are_all_finite) {
-      return quality(ConstPointView(pairs), mesh.triangles, options);
+      return quality(ConstPointView(pairs), elements, options);
     }
     const std::vector<Point2<double>> copy = pairs_of(pairs, mesh.in_a_cell);
-    return quality(copy, mesh.triangles, options);
+    return quality(copy, elements, options);
   }
   Workers workers(options.threads);
   const std::vector<double> xyz = triples_of(points);
-  const InPlane placed(fit_plane(xyz, mesh.in_a_cell, cells_of(mesh.triangles), storage_of<T>, workers), xyz,
-                       mesh.in_a_cell, workers);
-  return quality(placed.points, mesh.triangles, options);
+  const InPlane placed(fit_plane(xyz, mesh.in_a_cell, cells_of(mesh), storage_of<T>, workers), xyz, mesh.in_a_cell,
+                       workers);
+  return quality(placed.points, elements, options);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/hold.h"
 #include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/workers.h"
@@ -52,8 +53,8 @@ class MeshPlan::Implementation {
         workers_(options.threads),
         mesh_(flat_mesh(*view.mesh)),
         constraints_(asked_for(*view.mesh, mesh_, constraints)) {
-    check_mesh_size(mesh_.vertices, std::ssize(mesh_.triangles));
-    check_constraints(constraints_.view(), vertex_count(), std::ssize(mesh_.triangles));
+    check_mesh_size(mesh_.vertices, std::ssize(mesh_.faces), elements().are_triangles() ? 3 : 4);
+    check_constraints(constraints_.view(), vertex_count(), std::ssize(mesh_.faces));
     const Constraints held = constraints_.view();
     std::ranges::transform(
         mesh_.in_a_cell, held.other_cells, mesh_.in_a_cell.begin(),
@@ -104,26 +105,27 @@ class MeshPlan::Implementation {
 
  private:
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(mesh_.vertices); }
+  ElementList elements() const { return mesh_.elements.list(); }
 
   void make_flat() {
     if (!flat_) {
-      flat_ = plan(vertex_count(), mesh_.triangles, constraints_.view(), options_);
+      flat_ = plan(vertex_count(), IndexView(elements()), constraints_.view(), options_);
     }
   }
 
-  /// Where a device finds the rings, it does so in every call, and nothing is made before.
+  /// Where a device finds the rings (of triangles alone), it does so in every call, and nothing is made before.
   void make_in_space() {
-    if (cells_.size() != mesh_.triangles.size()) {
-      cells_ = cells_of(mesh_.triangles);
+    if (cells_.size() == 0) {
+      cells_ = cells_of(mesh_);
     }
-    if (!options_.prefers_topology_of_device()) {
+    if (!options_.prefers_topology_of_device() || !elements().are_triangles()) {
       analyse();
     }
   }
 
   void analyse() {
     if (!analysed_) {
-      analysed_.emplace(vertex_count(), mesh_.triangles, constraints_.view(), workers_);
+      analysed_.emplace(vertex_count(), elements(), constraints_.view(), workers_);
     }
   }
 
@@ -177,12 +179,11 @@ class MeshPlan::Implementation {
     make_in_space();
     std::vector<double> xyz = triples_of(read);
     const std::vector<std::uint8_t>& in_a_cell = mesh_.in_a_cell;
-    const std::vector<Triangle>& triangles = mesh_.triangles;
     InPlane placed(fit_plane(xyz, in_a_cell, cells_, storage, workers_), xyz, in_a_cell, workers_);
-    MeshRings found = rings_for(options_, placed.local.points, triangles, constraints_.view(), [&] {
+    MeshRings found = rings_for(options_, placed.local.points, elements(), constraints_.view(), [&] {
       analyse();
-      analysed_->look_at(placed.local.points, triangles, options_.used_layers(), workers_);
-      return std::as_const(*analysed_).with_rings(triangles, workers_);
+      analysed_->look_at(placed.local.points, elements(), options_.used_layers(), workers_);
+      return std::as_const(*analysed_).with_rings(elements(), workers_);
     });
     if (const auto fit = plane_of_fixed(placed.plane, xyz, in_a_cell, found.fixed, storage)) {
       placed = InPlane(*fit, xyz, in_a_cell, workers_);
@@ -192,14 +193,14 @@ class MeshPlan::Implementation {
           "slide: the mesh lies in a tilted plane, where rounding takes points off their lines; leave it out");
     }
     SmoothingResult result =
-        smooth_in_plane(found, triangles, placed.plane, xyz, placed.points, placed.local, storage, options_);
+        smooth_in_plane(found, elements(), placed.plane, xyz, placed.points, placed.local, storage, options_);
     if (keep_layers(found.layers, found.fixed)) {
       flat_.reset();
     }
     result.backend_note = joined_notes(found.note, result.backend_note);
-    count_invalid(
-        triangles, found.reversed, [&](std::int32_t v) { return placed.local.frame.enter(placed.points[v]); }, workers_,
-        result);
+    const auto position = [&](std::int32_t v) { return placed.local.frame.enter(placed.points[v]); };
+    elements().visit([&](const auto& listed) { count_invalid(listed, found.reversed, position, workers_, result); });
+    result.quadrilaterals = elements().count_quadrilaterals();
     for (std::size_t v = 0; v < points.rows; ++v) {
       write(points, v, std::array{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
     }
@@ -216,11 +217,11 @@ class MeshPlan::Implementation {
     }
   }
 
-  /// A byte for each face, deleted ones as well, of what has one for each triangle.
-  std::vector<std::uint8_t> of_faces(const std::vector<std::uint8_t>& of_triangles) const {
+  /// A byte for each face, deleted ones as well, of what has one for each element.
+  std::vector<std::uint8_t> of_faces(const std::vector<std::uint8_t>& of_elements) const {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(mesh_.all_faces), 0);
-    for (std::size_t t = 0; t < of_triangles.size(); ++t) {
-      bytes[static_cast<std::size_t>(mesh_.faces[t])] = of_triangles[t];
+    for (std::size_t e = 0; e < of_elements.size(); ++e) {
+      bytes[static_cast<std::size_t>(mesh_.faces[e])] = of_elements[e];
     }
     return bytes;
   }

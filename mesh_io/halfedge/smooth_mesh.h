@@ -17,7 +17,11 @@ namespace trismooth {
 /// An OpenMesh mesh whose connectivity is analysed once and whose points are smoothed as often as they change (moving
 /// meshes). `Mesh` is any type with an array kernel, TriMesh_ArrayKernelT or PolyMesh_ArrayKernelT, with traits of the
 /// caller's: points of two or three numbers of float or double (OpenMesh's vectors, Eigen's, or any type with
-/// operator[] and OpenMesh::vector_traits). All faces are triangles, and run either way round in each component.
+/// operator[] and OpenMesh::vector_traits). Faces run either way round in each component.
+///
+/// Faces of three and four sides are elements, triangles and quadrilaterals, which are smoothed together, whatever the
+/// method. The corners of a face of five sides or more are held (hold::other_cell), as those of other cells are;
+/// mesh.triangulate(face) makes triangles of it, which are smoothed.
 ///
 /// The vertices of faces and of other cells lie in a plane, in any direction: to within 1e-6 of their extent, and to
 /// within a tenth of the size of the smallest face at the vertex. Points move within the plane, and each keeps its
@@ -28,7 +32,7 @@ namespace trismooth {
 /// Held are boundaries, what the constraints name, and what the mesh says by its status, where it has one: vertices
 /// that are locked or features, the ends of edges and halfedges that are, and the corners of locked faces. Deleted
 /// elements are passed over. A deleted vertex, and one without a face, may be anywhere, at NaN as well. Nothing of the
-/// mesh changes but the points of vertices that move. Numbers of triangles in results are those of faces, deleted ones
+/// mesh changes but the points of vertices that move. Numbers of elements in results are those of faces, deleted ones
 /// counted; places of vertices that went back are in the two coordinates along which the mesh lies, in a tilted plane
 /// along two axes in it.
 ///
@@ -38,8 +42,8 @@ namespace trismooth {
 /// the same time. With a backend that runs on a device: from threads that have the same device current.
 class [[nodiscard]] MeshPlan {
  public:
-  /// Reads connectivity, status and constraints. Throws std::invalid_argument for a face that is no triangle and for
-  /// options and constraints that do not fit, MeshError for a component that cannot be oriented, DeviceError.
+  /// Reads connectivity, status and constraints. Throws std::invalid_argument for a face of fewer than three sides and
+  /// for options and constraints that do not fit, MeshError for a component that cannot be oriented, DeviceError.
   /// Complexity: linear, but for sorting the edges of each vertex.
   template <class Mesh>
   MeshPlan(const Mesh& mesh, const MeshConstraints& constraints, const SmoothingOptions& options = {})
@@ -58,10 +62,11 @@ class [[nodiscard]] MeshPlan {
   /// connectivity. Vertices that do not move keep their bits. Where the points lie along two coordinate axes the first
   /// call also orders the mesh in memory, and a later one repeats that only if the majority orientation of a component
   /// has changed; in other planes every call does. Throws std::invalid_argument for a mesh with other vertices or
-  /// faces, for one in a tilted plane where vertices are to slide, and for target lengths that do not fit, MeshError
-  /// for a coordinate of a used vertex that is not finite, in space or along the plane, and for points that lie in no
-  /// plane, DeviceError; the points are untouched then. Complexity: linear in each sweep and never more than the
-  /// vertices whose neighbourhood changed; n log n where the mesh is ordered.
+  /// faces, for one in a tilted plane where vertices are to slide, for target lengths that do not fit, and for
+  /// quadrilaterals where the backend smooths triangles alone, MeshError for a coordinate of a used vertex that is not
+  /// finite, in space or along the plane, and for points that lie in no plane, DeviceError; the points are untouched
+  /// then. Complexity: linear in each sweep and never more than the vertices whose neighbourhood changed; n log n where
+  /// the mesh is ordered.
   template <class Mesh>
   SmoothingResult smooth(Mesh& mesh) {
     return smooth_view(open_mesh::view_of<OpenMeshView>(mesh));

@@ -64,6 +64,10 @@ using PairMesh = OpenMesh::TriMesh_ArrayKernelT<PointTraits<OpenMesh::Vec2d>>;
 using EigenMesh = OpenMesh::TriMesh_ArrayKernelT<EigenTraits>;
 using NodeMesh = OpenMesh::TriMesh_ArrayKernelT<PointTraits<Node>>;
 using PolyMesh = OpenMesh::PolyMesh_ArrayKernelT<>;
+using FullPolyMesh = OpenMesh::PolyMesh_ArrayKernelT<FullTraits>;
+using PairPolyMesh = OpenMesh::PolyMesh_ArrayKernelT<PointTraits<OpenMesh::Vec2d>>;
+using EigenPolyMesh = OpenMesh::PolyMesh_ArrayKernelT<EigenTraits>;
+using NodePolyMesh = OpenMesh::PolyMesh_ArrayKernelT<PointTraits<Node>>;
 
 using Point3 = std::array<double, 3>;
 
@@ -83,22 +87,32 @@ using NumberOf = typename OpenMesh::vector_traits<typename Mesh::Point>::value_t
 template <class Mesh>
 inline constexpr std::size_t numbers_of = OpenMesh::vector_traits<typename Mesh::Point>::size_;
 
-/// The sample through add_face(), each point where `place` puts it: as many numbers as the mesh takes.
-template <class Mesh, class Place>
-Mesh mesh_of(const planar_samples::Sample& sample, const Place& place) {
+/// Faces of any number of corners through add_face(), each point where `place` puts it: as many numbers as the mesh
+/// takes.
+template <class Mesh, class Faces, class Place>
+Mesh mesh_of(const std::vector<double>& xyz, const Faces& faces, const Place& place) {
   Mesh mesh;
-  for (std::size_t i = 0; i < sample.xyz.size(); i += 3) {
-    const auto placed = place(std::array{sample.xyz[i], sample.xyz[i + 1], sample.xyz[i + 2]});
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    const auto placed = place(std::array{xyz[i], xyz[i + 1], xyz[i + 2]});
     typename Mesh::Point point;
     for (std::size_t k = 0; k < numbers_of<Mesh>; ++k) {
       point[k] = static_cast<NumberOf<Mesh>>(placed[k]);
     }
     mesh.add_vertex(point);
   }
-  for (const auto& [a, b, c] : sample.triangles) {
-    mesh.add_face(mesh.vertex_handle(a), mesh.vertex_handle(b), mesh.vertex_handle(c));
+  for (const auto& face : faces) {
+    std::vector<OpenMesh::VertexHandle> corners;
+    for (const std::int32_t corner : face) {
+      corners.push_back(mesh.vertex_handle(static_cast<unsigned>(corner)));
+    }
+    mesh.add_face(corners);
   }
   return mesh;
+}
+
+template <class Mesh, class Place>
+Mesh mesh_of(const planar_samples::Sample& sample, const Place& place) {
+  return mesh_of<Mesh>(sample.xyz, sample.triangles, place);
 }
 
 template <class Mesh>

@@ -104,10 +104,9 @@ void join(PieceFiles& files, RankMesh& mesh) {
   }
   const bool are_triangles =
       std::ranges::all_of(files.pieces, [](const Piece& piece) { return piece.mesh.elements.are_triangles(); });
-  mesh.elements =
-      are_triangles
-          ? ElementList(mesh.joined_elements.emplace<std::vector<Triangle>>(joined_elements<Triangle>(files)))
-          : ElementList(mesh.joined_elements.emplace<std::vector<MixedElement>>(joined_elements<MixedElement>(files)));
+  mesh.joined_elements = are_triangles ? OwnElements(joined_elements<Triangle>(files))
+                                       : OwnElements(joined_elements<MixedElement>(files));
+  mesh.elements = mesh.joined_elements.list();
   mesh.triangle_ids = std::move(triangle_ids);
 }
 
