@@ -14,12 +14,12 @@ namespace trismooth {
 /// The mesh of a run as OpenMesh halfedges, for a stage of the program's own: see PipelineOptions::halfedge_stage. What
 /// is to be read belongs to the run and is there for as long as the call; what is to be filled in is the caller's.
 struct HalfedgeStage {
-  /// Vertex v is point v of the document, face t is triangle t; faces run the same way within each component. Points
-  /// are those of the file. A point whose triangles form several fans (at bow ties and edges of three triangles), which
-  /// no halfedge mesh can hold, is there once for each fan; see `copies_of`. Points that no triangle uses, as the
-  /// middles of sides, are isolated vertices, which OpenMesh calls boundary as well. With PipelineOptions::merge
-  /// the corners of faces are the points that stay: those that go with them are isolated.
-  const TriangleMesh& mesh;
+  /// Vertex v is point v of the document, face e is element e, of three sides or four; faces run the same way within
+  /// each component. Points are those of the file. A point whose elements form several fans (at bow ties and edges of
+  /// three elements), which no halfedge mesh can hold, is there once for each fan; see `copies_of`. Points that no
+  /// element uses, as the middles of sides, are isolated vertices, which OpenMesh calls boundary as well. With
+  /// PipelineOptions::merge the corners of faces are the points that stay: those that go with them are isolated.
+  const ElementMesh& mesh;
   /// The point of each vertex beyond those of the document: vertex points + i is a further fan of point copies_of[i].
   std::span<const std::int32_t> copies_of;
   /// The document's cell of each face, ascending; a strip has several faces.

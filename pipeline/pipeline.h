@@ -71,8 +71,8 @@ struct PipelineOptions {
   std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers, rows of the file from 0
   bool fixed_ids_are_labels = false;               ///< those are the numbers that the mesh's own file gives its points
-  /// What becomes of quadrilaterals of four nodes. They are held as well, which a note says, where the mesh follows its
-  /// boundary, is connected by halfedges, is in pieces, or the backend smooths triangles alone.
+  /// What becomes of quadrilaterals of four nodes. They are held as well, which a note says, where the mesh is in
+  /// pieces or the backend smooths triangles alone.
   Quads quads = Quads::smooth;
   std::vector<std::int32_t> fixed_vertices;  ///< vertex numbers from 0, in any order, held as well
   /// Corners of triangles that are no further apart than this, in the file's unit, count as one vertex and move

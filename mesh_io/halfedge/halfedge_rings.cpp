@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,7 +28,7 @@ using OpenMesh::HalfedgeHandle;
 /// Marks the ends of edges between two regions.
 void hold_interfaces(const HalfedgeMesh& halfedges, std::span<const std::int32_t> regions,
                      std::span<std::uint8_t> reasons, Workers& workers) {
-  const TriangleMesh& mesh = halfedges.mesh;
+  const ElementMesh& mesh = halfedges.mesh;
   const auto hold_end = [&](HalfedgeHandle h) {
     const auto v = static_cast<std::size_t>(mesh.to_vertex_handle(h).idx());
     set_bits_relaxed(
@@ -50,24 +49,33 @@ void hold_interfaces(const HalfedgeMesh& halfedges, std::span<const std::int32_t
   });
 }
 
+/// In the way that is quickest for them.
+TriangleTopology topology_of(std::int32_t vertices, const ElementList& elements, Workers& workers) {
+  if (elements.are_triangles()) {
+    if (auto listed = find_listed_topology(vertices, elements.triangles(), workers)) {
+      return *std::move(listed);
+    }
+  }
+  return elements.visit([&](const auto& listed) { return connect_triangles(vertices, listed, workers); });
+}
+
 }  // namespace
 
-ConnectedMesh connect_halfedges(std::span<const double> xyz, std::span<const Triangle> triangles, Workers& workers) {
+ConnectedMesh connect_halfedges(std::span<const double> xyz, const ElementList& elements, Workers& workers) {
   const auto vertex_count = std::ssize(xyz) / 3;
-  check_mesh_size(vertex_count, std::ssize(triangles));
-  const auto vertices = static_cast<std::int32_t>(vertex_count);
-  std::optional<TriangleTopology> listed = find_listed_topology(vertices, triangles, workers);
-  TriangleTopology topology = listed ? *std::move(listed) : connect_triangles(vertices, triangles, workers);
+  check_mesh_size(vertex_count, static_cast<std::int64_t>(elements.size()), elements.are_triangles() ? 3 : 4);
+  TriangleTopology topology = topology_of(static_cast<std::int32_t>(vertex_count), elements, workers);
   // (OpenMesh's meshes cannot be moved: this one is made where it stays.)
-  return {build_halfedge_mesh(xyz, triangles, topology, topology.parity, workers), std::move(topology)};
+  return {build_halfedge_mesh(xyz, elements, topology, topology.parity, workers), std::move(topology)};
 }
 
 MeshRings read_halfedge_rings(const ConnectedMesh& connected, std::span<const Point2<double>> local,
-                              std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers,
+                              const ElementList& elements, const Constraints& constraints, Workers& workers,
                               Layers layers) {
   const TriangleTopology& topology = connected.topology;
-  check_constraints(constraints, topology.vertex_count, std::ssize(triangles));
-  Orientation orientation = orient(topology, triangles, local, workers);
+  check_constraints(constraints, topology.vertex_count, static_cast<std::int64_t>(elements.size()));
+  Orientation orientation =
+      elements.visit([&](const auto& listed) { return orient(topology, listed, local, workers); });
   MeshRings found;
   found.found_by = Topology::halfedge;
   found.fixed = topology.hold;
@@ -75,11 +83,13 @@ MeshRings read_halfedge_rings(const ConnectedMesh& connected, std::span<const Po
   if (!constraints.regions.empty()) {
     hold_interfaces(connected.halfedges, constraints.regions, found.fixed, workers);
   }
-  found.layers = hold_layers(local, triangles, orientation.reversed, layers, constraints.slide.along != Slide::off,
-                             found.fixed, workers);
-  found.slidable = find_slidable(triangles, found.fixed, constraints, workers);
+  found.layers = elements.visit([&](const auto& listed) {
+    return hold_layers(local, listed, orientation.reversed, layers, constraints.slide.along != Slide::off, found.fixed,
+                       workers);
+  });
+  found.slidable = find_slidable(elements, found.fixed, constraints, workers);
   // A component that the halfedges run through clockwise is read the other way round.
-  std::vector<std::uint8_t> clockwise(triangles.size());
+  std::vector<std::uint8_t> clockwise(elements.size());
   workers.for_blocks(std::ssize(clockwise), rings_grain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t < end; ++t) {
       clockwise[t] = orientation.reversed[t] ^ topology.parity[t];

@@ -6,6 +6,7 @@
 // OpenMesh's Eigen traits need its own vector traits before them.
 // clang-format off
 #include <Eigen/Core>
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 // clang-format on
@@ -20,10 +21,14 @@ struct TriangleMeshTraits : OpenMesh::DefaultTraits {
   using Normal = Eigen::Vector3d;
 };
 
-/// The halfedge mesh of this project.
+/// The halfedge mesh of this project, whose faces have three sides or four.
+using ElementMesh = OpenMesh::PolyMesh_ArrayKernelT<TriangleMeshTraits>;
+
+/// A mesh of triangles alone, with all that OpenMesh does with these.
 using TriangleMesh = OpenMesh::TriMesh_ArrayKernelT<TriangleMeshTraits>;
 
-/// The faces of `mesh` as a triangle list, in their order: three vertex indices each, as the face runs. Linear.
-std::vector<Triangle> face_list(const TriangleMesh& mesh);
+/// The faces of a mesh of triangles as a list, in their order: three vertex indices each, as the face runs. Throws
+/// std::invalid_argument for a face that is no triangle. Linear.
+std::vector<Triangle> face_list(const OpenMesh::PolyConnectivity& mesh);
 
 }  // namespace trismooth

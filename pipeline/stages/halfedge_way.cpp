@@ -28,7 +28,7 @@ namespace {
 class OpenMeshWay final : public HalfedgeWay {
  public:
   explicit OpenMeshWay(RunState& run)
-      : connected_(connect_halfedges(run.document.points, run.mesh.elements.triangles(), run.workers)) {}
+      : connected_(connect_halfedges(run.document.points, run.mesh.elements, run.workers)) {}
 
   std::vector<std::uint8_t> run_stage(RunState& run) const override {
     const HalfedgeMesh& halfedges = connected_.halfedges;
@@ -61,8 +61,7 @@ class OpenMeshWay final : public HalfedgeWay {
   }
 
   MeshRings rings(RunState& run, const Constraints& constraints, Layers layers) const override {
-    return read_halfedge_rings(connected_, run.local.points, run.mesh.elements.triangles(), constraints, run.workers,
-                               layers);
+    return read_halfedge_rings(connected_, run.local.points, run.mesh.elements, constraints, run.workers, layers);
   }
 
  private:

@@ -31,7 +31,7 @@ class HalfedgeWay {
 /// Whether this build has halfedges (TRISMOOTH_HALFEDGE). The mesh is smoothed to the same bits without.
 bool has_halfedges();
 
-/// Connects the triangles of the run. Throws ReadError for what is no mesh; std::invalid_argument in a build that has
+/// Connects the elements of the run. Throws ReadError for what is no mesh; std::invalid_argument in a build that has
 /// no halfedges.
 std::unique_ptr<const HalfedgeWay> connect_by_halfedges(RunState& run);
 

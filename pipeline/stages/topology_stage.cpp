@@ -138,15 +138,10 @@ Quads settled_quads(RunState& run) {
     return quad_of_cell(run.document.cells.types[cell], run.document.cells[cell]).has_value();
   };
   const Backend& backend = backend_of(run.smoothing);
-  const std::string reason =
-      options.halfedge_stage ? "the program's own stage has triangles alone, as halfedges"
-      : run.smoothing.topology == Topology::halfedge
-          ? "halfedges are those of triangles alone; without --topology halfedge they are smoothed"
-      : !backend.takes_quadrilaterals() ? "backend '" + backend.name() + "' smooths triangles alone here"
-                                        : std::string();
-  if (options.quads == Quads::hold || reason.empty()) {
+  if (options.quads == Quads::hold || backend.takes_quadrilaterals()) {
     return options.quads;
   }
+  const std::string reason = "backend '" + backend.name() + "' smooths triangles alone here";
   std::int64_t quads = 0;
   std::int64_t triangles = 0;
   for (std::size_t cell = 0; cell < run.document.cells.size(); ++cell) {

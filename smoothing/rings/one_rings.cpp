@@ -116,22 +116,13 @@ OneRings one_rings(const TriangleTopology& topology, std::span<const MixedElemen
   with_corners(topology, elements, reversed, workers, [&](const auto& corners) {
     workers.for_blocks(topology.vertex_count, rings_grain, [&](std::int64_t begin, std::int64_t end) {
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
-        if (!rings.is_free(v)) {
-          continue;
+        if (rings.is_free(v)) {
+          rings.fill_mixed(v, [&, corner = topology.corner[v]]() mutable {
+            const std::int32_t here = corner;
+            corner = corners.after(corner);
+            return std::pair(corners.leading(here), opposite_of(here));
+          });
         }
-        const auto first = rings.neighbours.begin() + rings.offsets[v];
-        const auto last = rings.neighbours.begin() + rings.offsets[v + 1];
-        const auto first_opposite = rings.opposites.begin() + rings.offsets[v];
-        auto opposite = first_opposite;
-        std::int32_t corner = topology.corner[v];
-        for (auto neighbour = first; neighbour != last; ++neighbour, ++opposite) {
-          *neighbour = corners.leading(corner);
-          *opposite = opposite_of(corner);
-          corner = corners.after(corner);
-        }
-        const auto smallest = std::min_element(first, last);
-        std::rotate(first_opposite, first_opposite + (smallest - first), opposite);
-        std::rotate(first, smallest, last);
       }
     });
   });

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/machine/bulk_memory.h"
@@ -137,6 +139,21 @@ struct OneRings {
       ring[i] = found[smallest];
       smallest = smallest + 1 == size ? 0 : smallest + 1;
     }
+  }
+  /// fill() where quadrilaterals may be in the ring: `next()` answers each neighbour with the vertex opposite in the
+  /// element between that and the next one, a std::pair. There is room for `opposites`.
+  template <class Next>
+  void fill_mixed(std::int32_t vertex, Next next) {
+    const auto first = neighbours.begin() + offsets[vertex];
+    const auto last = neighbours.begin() + offsets[vertex + 1];
+    const auto first_opposite = opposites.begin() + offsets[vertex];
+    auto opposite = first_opposite;
+    for (auto neighbour = first; neighbour != last; ++neighbour, ++opposite) {
+      std::tie(*neighbour, *opposite) = next();
+    }
+    const auto smallest = std::min_element(first, last);
+    std::rotate(first_opposite, first_opposite + (smallest - first), opposite);
+    std::rotate(first, smallest, last);
   }
 };
 

@@ -21,12 +21,12 @@
 #include "support/planar_samples.h"
 
 using planar_samples::Sample;
+using trismooth::ElementMesh;
 using trismooth::HalfedgeMesh;
 using trismooth::MeshError;
 using trismooth::OneRings;
 using trismooth::Orientation;
 using trismooth::Triangle;
-using trismooth::TriangleMesh;
 using trismooth::TriangleTopology;
 using trismooth::Workers;
 
@@ -78,7 +78,7 @@ std::int32_t original(const Sample& sample, const HalfedgeMesh& halfedge, std::i
 }
 
 /// Whether every handle fits to its neighbours', every boundary closes and every vertex is one fan.
-bool is_consistent(const TriangleMesh& mesh) {
+bool is_consistent(const ElementMesh& mesh) {
   std::vector<int> leaving(mesh.n_vertices(), 0);
   for (const auto h : mesh.all_halfedges()) {
     const auto opposite = mesh.opposite_halfedge_handle(h);
@@ -169,8 +169,8 @@ TEST_CASE("the halfedge mesh built in bulk is consistent for every kind of mesh"
     CHECK(is_consistent(built.halfedge.mesh));
     CHECK(built.halfedge.mesh.n_faces() == sample.triangles.size());
     std::ostringstream complaints;
-    CHECK(OpenMesh::Utils::MeshCheckerT<TriangleMesh>(built.halfedge.mesh)
-              .check(OpenMesh::Utils::MeshCheckerT<TriangleMesh>::CHECK_ALL, complaints));
+    CHECK(OpenMesh::Utils::MeshCheckerT<ElementMesh>(built.halfedge.mesh)
+              .check(OpenMesh::Utils::MeshCheckerT<ElementMesh>::CHECK_ALL, complaints));
     CHECK(complaints.str().empty());
   }
 }
@@ -179,7 +179,7 @@ TEST_CASE("face t is triangle t in its consistent orientation, and points are th
   for (const Sample& sample : planar_samples::samples()) {
     CAPTURE(sample.name);
     const Built built = build(sample);
-    const TriangleMesh& mesh = built.halfedge.mesh;
+    const ElementMesh& mesh = built.halfedge.mesh;
     const std::vector<Triangle> faces = trismooth::face_list(mesh);
     REQUIRE(faces.size() == sample.triangles.size());
     for (std::size_t t = 0; t < faces.size(); ++t) {
@@ -220,8 +220,8 @@ TEST_CASE("the bulk build gives the mesh that add_face gives") {
     }
     CAPTURE(sample.name);
     const Built built = build(sample);
-    const TriangleMesh& mesh = built.halfedge.mesh;
-    TriangleMesh expected;
+    const ElementMesh& mesh = built.halfedge.mesh;
+    ElementMesh expected;
     for (std::size_t i = 0; i < sample.xyz.size(); i += 3) {
       expected.add_vertex({sample.xyz[i], sample.xyz[i + 1], sample.xyz[i + 2]});
     }
@@ -312,4 +312,6 @@ TEST_CASE("a halfedge mesh larger than OpenMesh's handles is refused") {
   CHECK_THROWS_AS(trismooth::check_halfedge_mesh_size(1, 357913942, std::int64_t{3} * 357913942), MeshError);
   CHECK_THROWS_AS(trismooth::check_halfedge_mesh_size(1, 715827882, 2), MeshError);
   CHECK_THROWS_AS(trismooth::check_halfedge_mesh_size(most + 1, 1, 3), MeshError);
+  CHECK_NOTHROW(trismooth::check_halfedge_mesh_size(1, 1, 0, 536870911));
+  CHECK_THROWS_AS(trismooth::check_halfedge_mesh_size(1, 2, 0, 536870911), MeshError);
 }

@@ -5,19 +5,29 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <set>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+// (MeshChecker uses omerr() without its header.)
+#include <OpenMesh/Core/System/omstream.hh>
+#include <OpenMesh/Tools/Utils/MeshCheckerT.hh>
+
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/errors.h"
+#include "trismooth/base/hold.h"
 #include "trismooth/base/machine/workers.h"
 
 #include "catch.h"
+#include "support/mixed_meshes.h"
 #include "support/planar_samples.h"
 
 using planar_samples::Sample;
 using trismooth::Constraints;
+using trismooth::ElementList;
 using trismooth::MeshRings;
 using trismooth::Point2;
 using trismooth::Triangle;
@@ -40,6 +50,7 @@ void require_same(const MeshRings& found, const MeshRings& expected) {
   REQUIRE(found.reoriented_triangles == expected.reoriented_triangles);
   REQUIRE(found.rings.offsets == expected.rings.offsets);
   REQUIRE(found.rings.neighbours == expected.rings.neighbours);
+  REQUIRE(found.rings.opposites == expected.rings.opposites);
   REQUIRE(found.note.empty());
   REQUIRE(found.found_by == trismooth::Topology::halfedge);
   REQUIRE(expected.found_by == trismooth::Topology::host);
@@ -47,8 +58,8 @@ void require_same(const MeshRings& found, const MeshRings& expected) {
 
 /// By way of a halfedge mesh.
 MeshRings halfedge_rings(std::span<const double> xyz, std::span<const Point2<double>> points,
-                         std::span<const Triangle> triangles, const Constraints& constraints, Workers& workers) {
-  return trismooth::read_halfedge_rings(trismooth::connect_halfedges(xyz, triangles, workers), points, triangles,
+                         const ElementList& elements, const Constraints& constraints, Workers& workers) {
+  return trismooth::read_halfedge_rings(trismooth::connect_halfedges(xyz, elements, workers), points, elements,
                                         constraints, workers);
 }
 
@@ -60,7 +71,9 @@ struct RandomConstraints {
   std::vector<std::int32_t> regions;
 
   RandomConstraints(const Sample& sample, std::mt19937_64& random)
-      : fixed(sample.xyz.size() / 3), other_cells(sample.xyz.size() / 3), regions(sample.triangles.size()) {
+      : RandomConstraints(sample.xyz.size() / 3, sample.triangles.size(), random) {}
+  RandomConstraints(std::size_t vertices, std::size_t elements, std::mt19937_64& random)
+      : fixed(vertices), other_cells(vertices), regions(elements) {
     std::ranges::generate(fixed, [&] { return static_cast<std::uint8_t>(random() % 9 == 0 ? 2 : 0); });
     std::ranges::generate(other_cells, [&] { return static_cast<std::uint8_t>(random() % 9 == 0 ? 1 : 0); });
     std::ranges::generate(regions, [&] { return static_cast<std::int32_t>(random() % 20 == 0 ? 1 : 0); });
@@ -130,6 +143,55 @@ TEST_CASE("a large mesh gives the same with any number of threads") {
     Workers workers(threads);
     require_same(halfedge_rings(sample.xyz, points, sample.triangles, named.view(), workers), expected);
   }
+}
+
+TEST_CASE("halfedges give what the list of elements gives where quadrilaterals are among them") {
+  std::mt19937_64 random(34);
+  unsigned met = 0;
+  std::int64_t turned = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    const mixed_meshes::MixedMesh mesh = mixed_meshes::random_mesh(seed).listed_from_other_corners(seed, seed % 2 == 0);
+    std::vector<Point2<double>> points;
+    std::vector<double> xyz;
+    for (const auto& [x, y] : mesh.points) {
+      points.push_back({x, y});
+      xyz.insert(xyz.end(), {x, y, 0});
+    }
+    const RandomConstraints named(points.size(), mesh.elements.size(), random);
+    for (const Constraints& constraints : {Constraints{}, named.view()}) {
+      for (const int threads : {1, 3}) {
+        Workers workers(threads);
+        const MeshRings expected = trismooth::find_mesh_rings(points, ElementList(mesh.elements), constraints, workers);
+        require_same(halfedge_rings(xyz, points, mesh.elements, constraints, workers), expected);
+        turned += std::ranges::count(expected.reversed, 1);
+        for (const std::uint8_t reasons : expected.fixed) {
+          met |= reasons;
+        }
+      }
+    }
+    // Faces are the elements, and each vertex is there once for each fan of them.
+    Workers workers(1);
+    const trismooth::ConnectedMesh connected = trismooth::connect_halfedges(xyz, mesh.elements, workers);
+    const trismooth::ElementMesh& halfedges = connected.halfedges.mesh;
+    std::ostringstream complaints;
+    OpenMesh::Utils::MeshCheckerT<trismooth::ElementMesh>(halfedges).check(
+        OpenMesh::Utils::MeshCheckerT<trismooth::ElementMesh>::CHECK_ALL, complaints);
+    CHECK(complaints.str().empty());
+    REQUIRE(halfedges.n_faces() == mesh.elements.size());
+    for (const auto face : halfedges.faces()) {
+      std::set<std::int32_t> corners;
+      for (const auto corner : halfedges.fv_range(face)) {
+        const int beyond = corner.idx() - mesh.vertex_count();
+        corners.insert(beyond < 0 ? corner.idx() : connected.halfedges.copies_of[static_cast<std::size_t>(beyond)]);
+      }
+      const std::vector<std::int32_t> listed = mesh.corners(static_cast<std::size_t>(face.idx()));
+      CHECK(corners == std::set<std::int32_t>(listed.begin(), listed.end()));
+    }
+  }
+  CHECK((met & trismooth::hold::bow_tie) != 0);
+  CHECK((met & trismooth::hold::interface) != 0);
+  CHECK(turned > 100);
 }
 
 TEST_CASE("halfedges refuse what the triangle list refuses, with the same words") {

@@ -283,6 +283,45 @@ TEST_CASE("a file in which most quadrilaterals are inverted is turned over, wher
   }
 }
 
+TEST_CASE("quadrilaterals are smoothed to the same bits by halfedges, which a stage of the program's own has") {
+  for (const std::uint64_t thirds : {0, 1}) {
+    const MixedMesh mesh(9, 7, 0.3, 21, thirds);
+    MeshDocument by_list = document_of(mesh);
+    PipelineOptions options = options_of(Method::mean_ratio);
+    options.smoothing.topology = Topology::host;
+    const PipelineResult expected = smooth_document(by_list, options);
+    CHECK(expected.smoothing->moved_vertices > 0);
+    MeshDocument by_halfedges = document_of(mesh);
+    options.smoothing.topology = Topology::halfedge;
+    const PipelineResult result = smooth_document(by_halfedges, options);
+    CHECK(result.topology == Topology::halfedge);
+    CHECK(result.notes == expected.notes);
+    CHECK(by_halfedges.points == by_list.points);
+
+    std::size_t faces_of_four = 0;
+    std::int32_t held = -1;
+    options.halfedge_stage = [&](HalfedgeStage& stage) {
+      for (const auto face : stage.mesh.faces()) {
+        faces_of_four += stage.mesh.valence(face) == 4 ? 1 : 0;
+      }
+      for (const auto vertex : stage.mesh.vertices()) {
+        held = stage.mesh.is_boundary(vertex) ? held : stage.point_of(vertex);
+      }
+      stage.fixed.assign(stage.document.point_count(), 0);
+      stage.fixed[static_cast<std::size_t>(held)] = 1;
+    };
+    MeshDocument by_stage = document_of(mesh);
+    const PipelineResult staged = smooth_document(by_stage, options);
+    CHECK(static_cast<std::int64_t>(faces_of_four) == expected.before.quadrilaterals);
+    CHECK(faces_of_four > 0);
+    CHECK(staged.input.free_vertices == expected.input.free_vertices - 1);
+    const std::vector<double> before = document_of(mesh).points;
+    for (std::size_t k = 3 * static_cast<std::size_t>(held); k < 3 * static_cast<std::size_t>(held) + 3; ++k) {
+      CHECK(by_stage.points[k] == before[k]);
+    }
+  }
+}
+
 TEST_CASE("what cannot be had with quadrilaterals holds them or is refused, in a sentence that names the way out") {
   const MixedMesh mesh(6, 6, 0.2, 5);
   MeshDocument document = document_of(mesh);
@@ -292,25 +331,18 @@ TEST_CASE("what cannot be had with quadrilaterals holds them or is refused, in a
     ask(options);
     return smooth_document(own, options).notes;
   };
-  CHECK(any_says(notes_with([](PipelineOptions& o) { o.smoothing.topology = Topology::halfedge; }),
-                 "without --topology halfedge they are smoothed"));
-  CHECK(any_says(notes_with([](PipelineOptions& o) { o.halfedge_stage = [](HalfedgeStage&) {}; }),
-                 "the program's own stage has triangles alone"));
   const fakes::FakeBackend backend;
   CHECK(any_says(notes_with([&](PipelineOptions& o) { o.smoothing.backend = &backend; }), "smooths triangles alone"));
   // Asked for, they are held without more words.
-  CHECK_FALSE(any_says(notes_with([](PipelineOptions& o) {
-                         o.smoothing.topology = Topology::halfedge;
+  CHECK_FALSE(any_says(notes_with([&](PipelineOptions& o) {
+                         o.smoothing.backend = &backend;
                          o.quads = Quads::hold;
                        }),
-                       "without --topology"));
+                       "smooths triangles alone"));
   MeshDocument alone = document_of(MixedMesh(3, 3, 0.1, 1, 0));
   PipelineOptions held;
   held.quads = Quads::hold;
   CHECK(says(message_of<ReadError>([&] { check_document(alone, held); }), "--quads smooth"));
-  PipelineOptions by_halfedges = options_of(Method::smart);
-  by_halfedges.smoothing.topology = Topology::halfedge;
-  CHECK(says(message_of<ReadError>([&] { smooth_document(alone, by_halfedges); }), "without --topology halfedge"));
   // A quadrilateral whose corners are not in turn.
   MeshDocument crossed = document_of(MixedMesh(5, 5, 0.1, 1, 0));
   std::swap(crossed.cells.connectivity[4 * 12], crossed.cells.connectivity[4 * 12 + 1]);
