@@ -107,7 +107,7 @@ class OrientedComponents {
     for_turned([&](std::size_t e, std::size_t c, double was) {
       const double is = quotient(e, true, after);
       balance[c] += (is > 0 ? 1 : 0) - (is < 0 ? 1 : 0);
-      if (offends(was, is, thresholds[c]) || (nodes != nullptr && is_spoiled(e, *nodes))) {
+      if (offends(was, is, thresholds[c]) || (nodes != nullptr && nodes->is_spoiled(elements_[e], true))) {
         is_worse[c] = 1;
       }
     });
@@ -164,10 +164,6 @@ class OrientedComponents {
   }
   double quotient(std::size_t e, bool is_turned, std::span<const Point2<double>> points) const {
     return measured(e, is_turned, points, [](const auto& corners) { return shape_quotient(corners); });
-  }
-  bool is_spoiled(std::size_t e, const FollowingNodes& nodes) const {
-    const std::span<const std::int32_t> corners = elements_[e];
-    return corners.size() == 3 && nodes.is_spoiled(Triangle{corners[0], corners[1], corners[2]}, true);
   }
 
   ElementList elements_;
