@@ -85,7 +85,7 @@ void StagedRun::smooth() {
   timings.smooth += smoothing.timings.smooth;
   timings.transfer_out += smoothing.timings.transfer_out;
   timings.guard += smoothing.timings.commit;
-  if (smoothing.stop_reason == StopReason::time_limit && smoothing.sweeps == 0) {
+  if (has_no_time_for_sweeps(smoothing)) {
     run_.warn("the time was up before the first sweep, so no sweep has moved anything; give --time-limit more");
   }
   run_.result.smoothing = std::move(smoothing);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -58,6 +59,15 @@ std::string warning_of_layers(const LayersResult& layers) {
                    layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
 }
 
+/// What is to be done about inverted elements that remain.
+std::string_view what_mends(const std::optional<SmoothingResult>& smoothing) {
+  if (smoothing && has_no_time_for_sweeps(*smoothing)) {
+    return "there was no time to mend them all: give --time-limit more";
+  }
+  return smoothing && smoothing->untangling ? "what held vertices fold nothing mends: let some of them go"
+                                            : "--untangle on mends what can be mended";
+}
+
 }  // namespace
 
 std::string warning_of_options_without_effect(const PipelineOptions& options) {
@@ -95,6 +105,10 @@ std::string warning_of_options_without_effect(const PipelineOptions& options) {
   return warning;
 }
 
+bool has_no_time_for_sweeps(const SmoothingResult& smoothing) {
+  return smoothing.stop_reason == StopReason::time_limit && smoothing.sweeps == 0;
+}
+
 std::string note_of_layers(const LayersResult& layers) {
   const std::int64_t held = layers.kept + layers.kept_on_lines;
   return held == 0 ? std::string()
@@ -109,13 +123,12 @@ std::string note_of_layers(const LayersResult& layers) {
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
   std::vector<std::string> warnings;
   if (result.after && result.after->inverted > 0) {
-    const bool is_untangled = result.smoothing && result.smoothing->untangling;
     const auto [one, several] = element_words(result.before.triangles, result.before.quadrilaterals);
-    const bool is_one = result.after->inverted == 1;
-    warnings.push_back(fmt::format("{} inverted {} {} ({} before){}", result.after->inverted, is_one ? one : several,
+    const std::int64_t inverted = result.after->inverted;
+    const bool is_one = inverted == 1;
+    warnings.push_back(fmt::format("{} inverted {} {} ({} before); {}", inverted, is_one ? one : several,
                                    is_one ? "remains" : "remain", result.before.inverted,
-                                   is_untangled ? "; what held vertices fold nothing mends: let some of them go"
-                                                : "; --untangle on mends what can be mended"));
+                                   what_mends(result.smoothing)));
   }
   if (result.quadratic_after && result.quadratic_after->invalid > 0) {
     const QuadraticQuality& after = *result.quadratic_after;

@@ -31,6 +31,9 @@ std::string warning_of_options_without_effect(const PipelineOptions& options);
 /// What was held since it is flat on purpose, with the way out; empty where there is nothing.
 std::string note_of_layers(const LayersResult& layers);
 
+/// Whether the time was up before the first sweep, and with it perhaps before all was untangled.
+bool has_no_time_for_sweeps(const SmoothingResult& smoothing);
+
 /// What is to be said of a result of that method in which elements are inverted, or triangles of six nodes not valid,
 /// with the way out.
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result);

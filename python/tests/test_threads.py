@@ -208,9 +208,20 @@ def test_no_time_is_said_and_nothing_moves():
         result = trismooth.smooth(points, triangles, time_limit=0.0)
     assert (result.stop_reason, result.sweeps, result.moved) == ("time_limit", 0, 0)
     assert result.inverted == result.after.inverted
+    assert str(result).startswith("no vertex moved in 0 sweeps; stopped by time_limit")
     np.testing.assert_array_equal(result.points, points)
     with pytest.warns(trismooth.MeshWarning):
         assert trismooth.smooth(points, triangles, time_limit=0.0, quality=False).inverted == -1
+
+
+def test_more_time_is_advised_where_there_was_none_to_untangle():
+    points, triangles = grid(30, 30)
+    inside = ((points > points.min(axis=0)) & (points < points.max(axis=0))).all(axis=1)
+    points[inside] = np.random.default_rng(1).uniform(points.min(), points.max(), (inside.sum(), 2))
+    with pytest.warns(trismooth.MeshWarning):
+        result = trismooth.smooth(points, triangles, untangle=True, time_limit=1e-9)
+    (note,) = [note for note in result.notes if "inverted" in note]
+    assert note.endswith("there was no time to mend all of them")
 
 
 def test_two_processes_give_the_same_bits_whatever_their_threads():

@@ -32,16 +32,23 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     found = [f"{count:,} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]
     if not found:
         return []
-    if outcome.untangling is None:
+    if had_no_time(outcome):
+        why = "there was no time to mend all of them"
+    elif outcome.untangling is None:
         why = "nothing untangled the mesh; untangle=True does"
     else:
         why = NOT_MENDED
     return [f"the result has {' and '.join(found)}: {why}"]
 
 
+def had_no_time(outcome: _core.Outcome) -> bool:
+    """Whether the time was up before the first sweep, and with it perhaps before all was untangled."""
+    return outcome.stop_reason == "time_limit" and outcome.sweeps == 0
+
+
 def time_note(outcome: _core.Outcome) -> List[str]:
     """What to say where there was no time for any sweep: a sentence, or none."""
-    if outcome.stop_reason != "time_limit" or outcome.sweeps > 0:
+    if not had_no_time(outcome):
         return []
     return ["the time was up before the first sweep, so no sweep has moved anything; give time_limit more"]
 
@@ -305,11 +312,13 @@ class Result:
 
         return plot(self, **options)
 
+    def _moves(self) -> str:
+        if self.moved == 0 and had_no_time(self._outcome):
+            return "no vertex moved"  # those that are free may not have been counted
+        return f"{free_moved(self)} of {self.free_vertices} free vertices moved"
+
     def __str__(self) -> str:
-        lines = (
-            f"{free_moved(self)} of {self.free_vertices} free vertices moved in {self.sweeps} "
-            f"sweep{'' if self.sweeps == 1 else 's'}; stopped by {self.stop_reason}"
-        )
+        lines = f"{self._moves()} in {self.sweeps} sweep{'' if self.sweeps == 1 else 's'}; stopped by {self.stop_reason}"
         if self.sliding is not None:
             lines += f"\n{sliding_text(self.sliding)}"
         return f"{lines}\n\n{self._outcome.summary()}" if self.has_quality else lines
@@ -321,8 +330,7 @@ class Result:
             shapes = f", smallest shape {before.min:.4g} -> {after.min:.4g}, mean {before.mean:.4g} -> {after.mean:.4g}"
         slid = "" if self.sliding is None else f", {self.sliding.slid} of {self.sliding.vertices} on lines slid"
         return (
-            f"<trismooth.Result: {free_moved(self)} of {self.free_vertices} free vertices moved{slid}, "
-            f"{self.sweeps} sweeps, {self.stop_reason}{shapes}>"
+            f"<trismooth.Result: {self._moves()}{slid}, {self.sweeps} sweeps, {self.stop_reason}{shapes}>"
         )
 
     def _repr_html_(self) -> str:

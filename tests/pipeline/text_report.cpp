@@ -213,6 +213,13 @@ TEST_CASE("inverted triangles that remain are told, and those that went, too") {
   CHECK(says(warning(), "2 inverted triangles remain (5 before); --untangle on"));
   result.smoothing->untangling = trismooth::UntanglingResult{};
   CHECK(says(warning(), "2 inverted triangles remain (5 before); what held vertices fold"));
+  result.smoothing->stop_reason = StopReason::time_limit;
+  result.smoothing->sweeps = 0;
+  CHECK(
+      says(warning(), "2 inverted triangles remain (5 before); there was no time to mend them all: give --time-limit"));
+  result.smoothing->untangling.reset();
+  CHECK(
+      says(warning(), "2 inverted triangles remain (5 before); there was no time to mend them all: give --time-limit"));
 }
 
 TEST_CASE("a time has the digits that matter") {
