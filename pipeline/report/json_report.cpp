@@ -300,7 +300,7 @@ Json smoothing_json(const SmoothingResult& smoothing, Topology topology) {
 }
 
 Json size_change_json(const SizeChange& change) {
-  return {{"triangles", change.triangles},
+  return {{"elements", change.triangles},
           {"left_out", change.left_out},
           {"rms_log_ratio", number_json(change.rms_log_ratio)},
           {"ratio_p1", number_json(change.ratio_p1)},

@@ -119,7 +119,7 @@ class Reports(tool.ToolTest):
             points = planar_geometry.flat(mesh.points)
             areas.append([planar_geometry.doubled_area(points, *corners) for _, corners in mesh.elements()])
         ratios = sorted(after / before for before, after in zip(*areas))
-        self.assertEqual((change["triangles"], change["left_out"]), (len(ratios), 0))
+        self.assertEqual((change["elements"], change["left_out"]), (len(ratios), 0))
         squares = math.fsum(math.log(ratio) ** 2 for ratio in ratios)
         self.assertAlmostEqual(change["rms_log_ratio"], math.sqrt(squares / len(ratios)), delta=1e-9)
         self.assertAlmostEqual(change["ratio_p1"], ratios[math.ceil(0.01 * len(ratios)) - 1], delta=1e-9)

@@ -34,7 +34,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                 "size_array",       "size_fit", "fields",     "areas",
                                 "deformation",      "gates",    "smoothing",  "coordinates_hash",
                                 "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"});
-  CHECK(keys_of(report["size_change"]) == Keys{"triangles", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
+  CHECK(keys_of(report["size_change"]) == Keys{"elements", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
   CHECK(keys_of(report["input"]) == Keys{"path",
                                          "format",
@@ -179,7 +179,7 @@ TEST_CASE("the JSON report holds the run's values") {
   CHECK(report["after"]["worst"][0]["centroid"] == Json::array({1.5, -2.5}));
   CHECK(report["after"]["worst"][0]["all_fixed"] == false);
   CHECK(report["after"]["worst"][1]["all_fixed"] == true);
-  CHECK(report["size_change"]["triangles"] == 204);
+  CHECK(report["size_change"]["elements"] == 204);
   CHECK(report["size_change"]["left_out"] == 6);
   CHECK(report["size_change"]["rms_log_ratio"] == 0.125);
   CHECK(report["size_change"]["ratio_p1"] == 0.5);
