@@ -269,10 +269,7 @@ TriangleArray::TriangleArray(const HostArray& array)
   if (!is_integer(array)) {
     array.raise_type("integers are needed, not " + array.type_text());
   }
-  const auto is_taken = [](std::size_t numbers) {
-    return numbers == 3 || numbers == 4 || numbers == 6 || numbers == 8 || numbers == 9;
-  };
-  if (array.dimensions() != 2 || !is_taken(array.extent(1))) {
+  if (array.dimensions() != 2 || corners_of_nodes(array.extent(1)) == 0) {
     array.raise_value("shape " + array.shape_text() +
                       "; expected (M, 3), (M, 4) with quadrilaterals, (M, 6) for triangles of six nodes, or (M, 8) "
                       "or (M, 9) with quadrilaterals of eight or nine" +
@@ -291,16 +288,23 @@ TriangleArray::TriangleArray(const HostArray& array)
   has_middles_ = nodes_ == 6;
   if (nodes_ > 6) {
     corners_.reserve(4 * size_);
-    for_each_row([&](std::size_t /*element*/, const auto& number) {
+    for_each_row([&](std::size_t element, const auto& number) {
       std::size_t count = 0;
       while (count < nodes_ && !is_no_corner(number(count))) {
         ++count;
       }
+      std::size_t behind = count;
+      while (behind < nodes_ && is_no_corner(number(behind))) {
+        ++behind;
+      }
       const std::size_t corners = corners_of_nodes(count);
+      if (corners == 0 || behind < nodes_) {
+        throw MeshError("triangles: element " + std::to_string(element) + " has " + std::to_string(count) +
+                        " nodes before the first -1: 3, 4, 6, 8 and 9 are possible, and nothing behind them");
+      }
       has_middles_ = has_middles_ || count != corners;
       for (std::size_t k = 0; k < 4; ++k) {
-        const bool is_there = k < (corners > 0 ? corners : count);
-        corners_.push_back(is_there ? static_cast<std::int64_t>(number(k)) : no_corner);
+        corners_.push_back(k < corners ? static_cast<std::int64_t>(number(k)) : no_corner);
       }
     });
   }

@@ -60,6 +60,16 @@ def test_arrays_of_eight_columns_and_other_elements_among_them():
         trismooth.smooth(points, mixed)
 
 
+def test_rows_of_other_numbers_of_nodes_are_refused_by_quality_as_well():
+    points, elements, _ = grid()
+    for left in (0, 2, 5, 7):
+        rows = elements.copy()
+        rows[3, left:] = -1
+        for call in (trismooth.smooth, trismooth.quality):
+            with pytest.raises(trismooth.MeshError, match=f"element 3 has {left} nodes before the first -1"):
+                call(points, rows)
+
+
 def test_corners_alone_in_rows_of_nine_are_corners_alone():
     points, elements, _ = grid(centres=False)
     points, corners = points[: (N + 1) ** 2], elements[:, :4]
