@@ -141,7 +141,9 @@ struct InputSummary {
   std::int64_t triangles = 0;
   std::int64_t quadrilaterals = 0;  ///< that are elements of the mesh; those that are held are other cells
   std::int64_t other_cells = 0;
-  std::int64_t quadratic_triangles = 0;       ///< those of the triangles that have six nodes
+  std::int64_t crossed_quadrilaterals = 0;  ///< those of the other cells whose corners are not listed in turn: reports
+                                            ///< count them as inverted
+  std::int64_t quadratic_triangles = 0;     ///< those of the triangles that have six nodes
   std::int64_t quadratic_quadrilaterals = 0;  ///< those of the quadrilaterals that have eight nodes, or nine
   std::int64_t middle_nodes = 0;     ///< vertices that are neither fixed nor free, but follow the side they are on
   std::int32_t regions = 0;          ///< 0: no region array

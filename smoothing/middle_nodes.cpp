@@ -110,19 +110,19 @@ std::array<double, 2> shares_of_centre(const std::array<Place, 4>& corners, cons
           within_side(0.5 + 0.5 * ((second * squares - first * both) / determinant))};
 }
 
-std::vector<MiddleNode> settle_middles(const ElementList& elements, std::span<const QuadraticElement> quadratics,
-                                       std::vector<std::uint8_t>& named, std::vector<std::uint8_t>& in_other_cell) {
-  std::vector<MiddleNode> following;
+SettledMiddles settle_middles(const ElementList& elements, std::span<const QuadraticElement> quadratics,
+                              std::vector<std::uint8_t>& named, std::vector<std::uint8_t>& in_other_cell) {
+  SettledMiddles settled;
   if (quadratics.empty()) {
-    return following;
+    return settled;
   }
-  enum : std::uint8_t { unknown, follows, stays };
+  enum : std::uint8_t { unknown, follows, stays, is_shared };
   constexpr Followed none{no_corner, no_corner, no_corner, no_corner};
   std::vector<std::uint8_t> fates(in_other_cell.size(), unknown);
   std::vector<Followed> sides(in_other_cell.size(), none);
   for (const auto corners : elements) {
     for (const std::int32_t corner : corners) {
-      fates[static_cast<std::size_t>(corner)] = stays;
+      fates[static_cast<std::size_t>(corner)] = is_shared;
     }
   }
   for_each_middle(elements, quadratics, [&](std::size_t middle, const Followed& followed) {
@@ -131,12 +131,12 @@ std::vector<MiddleNode> settle_middles(const ElementList& elements, std::span<co
     if (fates[middle] == unknown) {
       fates[middle] = is_held ? stays : follows;
     } else if (has_other_side) {
-      fates[middle] = stays;
+      fates[middle] = is_shared;
     }
     sides[middle] = followed;
   });
   for_each_middle(elements, quadratics, [&](std::size_t middle, const Followed& followed) {
-    if (fates[middle] == stays) {
+    if (fates[middle] == stays || fates[middle] == is_shared) {
       in_other_cell[middle] = 1;
       std::vector<std::uint8_t>& holding = !named.empty() && named[middle] != 0 ? named : in_other_cell;
       const MiddleNode held{.corners = followed};
@@ -146,10 +146,14 @@ std::vector<MiddleNode> settle_middles(const ElementList& elements, std::span<co
     } else if (fates[middle] == follows) {
       fates[middle] = unknown;  // listed
       in_other_cell[middle] = 1;
-      following.push_back({static_cast<std::int32_t>(middle), followed});
+      settled.following.push_back({static_cast<std::int32_t>(middle), followed});
     }
   });
-  return following;
+  // (`sides` has what is a middle.)
+  for (std::size_t v = 0; v < fates.size(); ++v) {
+    settled.shared += fates[v] == is_shared && sides[v] != none ? 1 : 0;
+  }
+  return settled;
 }
 
 MiddlesOfCorners::MiddlesOfCorners(std::size_t vertex_count, std::span<const MiddleNode> middles) {

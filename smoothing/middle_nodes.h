@@ -42,13 +42,19 @@ constexpr double middle_move(double share, double first_before, double first_now
   return (1 - share) * (first_now - first_before) + share * (second_now - second_before);
 }
 
+/// The middles of quadratic elements, sorted by what becomes of them.
+struct SettledMiddles {
+  std::vector<MiddleNode> following;  ///< those that follow their corners
+  std::int64_t shared = 0;  ///< those that stay since they are corners as well, or of several sides or centres
+};
+
 /// The middles of quadratic elements that follow their corners. Holds where that cannot be: a middle of two different
 /// sides, one that is a corner as well, of any other cell, or that `named` holds (a byte a vertex, or empty: none is)
 /// has to stay, and so have the ends of its sides, or the corners around a centre: in `named`, where it is named, else
 /// in `in_other_cell` (a byte a vertex). That has all middles afterwards. Their shares are 1/2 until find_shares()
 /// finds them. Complexity: linear.
-std::vector<MiddleNode> settle_middles(const ElementList& elements, std::span<const QuadraticElement> quadratics,
-                                       std::vector<std::uint8_t>& named, std::vector<std::uint8_t>& in_other_cell);
+SettledMiddles settle_middles(const ElementList& elements, std::span<const QuadraticElement> quadratics,
+                              std::vector<std::uint8_t>& named, std::vector<std::uint8_t>& in_other_cell);
 
 /// The fractions at which a centre lies in a quadrilateral of these corners, in turn: of the way from the middle of the
 /// side 30 to that of 12, and from 01 to 32, in the plane of these ways. Between 1/16 and 15/16, and 1/2 where the

@@ -119,6 +119,9 @@ struct SmoothingResult {
   std::int64_t guard_rounds = 0;       ///< rounds of the guard that took vertices back
   std::int64_t free_vertices = 0;      ///< vertices that nothing holds fixed, nor to a line
   std::int64_t quadrilaterals = 0;     ///< among the elements
+  /// Nodes between the corners of quadratic elements that are corners as well, in the middle of several sides or the
+  /// centre of several elements: nothing can follow there, so they are held, with the corners around them.
+  std::int64_t shared_middles = 0;
   /// Elements that are inverted in the result, and those without area (quadrilaterals: with a corner in line): of all,
   /// with a free vertex or not, each as its component is oriented; of six nodes the corners. With the guard none that
   /// was valid is among them; where nothing is untangled (`untangling` is empty) sweeps mend some of the input's and

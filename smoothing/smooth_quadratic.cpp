@@ -131,7 +131,7 @@ SmoothingResult smooth_nodes(const PointView& points, const ListedElements& list
   std::vector<std::uint8_t> named = named_vertices(constraints, points.size());
   std::vector<std::uint8_t> in_other_cell(constraints.other_cells.begin(), constraints.other_cells.end());
   in_other_cell.resize(points.size(), 0);
-  std::vector<MiddleNode> middles = settle_middles(elements, listed.quadratics, named, in_other_cell);
+  auto [middles, shared_middles] = settle_middles(elements, listed.quadratics, named, in_other_cell);
   Constraints settled;
   settled.fixed = named;
   settled.other_cells = in_other_cell;
@@ -154,6 +154,7 @@ SmoothingResult smooth_nodes(const PointView& points, const ListedElements& list
   }
   std::vector<Point2<double>> swept = nodes;
   SmoothingResult result = of_corners.smooth(swept, points.storage());
+  result.shared_middles = shared_middles;
   const LocalPoints before = local_nodes(nodes, elements, in_other_cell, workers);
   const MeshRings rings = find_mesh_rings(before.points, elements, settled, workers);
   std::vector<double> stored = numbers_of(nodes);

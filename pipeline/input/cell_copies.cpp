@@ -19,9 +19,15 @@ namespace {
 /// The middle across from each corner, by ascending corners; -1 where there is none.
 using Middles = std::vector<std::pair<std::int32_t, std::int32_t>>;
 
-Middles middles_of(const ElementCells& mesh, std::int32_t element) {
+/// Its nodes between corners; the end where it has none.
+std::vector<QuadraticElement>::const_iterator quadratic_of(const ElementCells& mesh, std::int32_t element) {
   const auto found = std::ranges::lower_bound(mesh.quadratics, element, {}, &QuadraticElement::element);
-  const bool has_any = found != mesh.quadratics.end() && found->element == element;
+  return found != mesh.quadratics.end() && found->element == element ? found : mesh.quadratics.end();
+}
+
+Middles middles_of(const ElementCells& mesh, std::int32_t element) {
+  const auto found = quadratic_of(mesh, element);
+  const bool has_any = found != mesh.quadratics.end();
   const auto corners = mesh.elements[static_cast<std::size_t>(element)];
   Middles middles;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -34,17 +40,6 @@ Middles middles_of(const ElementCells& mesh, std::int32_t element) {
 /// Whether the copy has a middle that the element has not.
 bool has_other_middles(const Middles& copy, const Middles& first) {
   return !std::ranges::equal(copy, first, [](const auto& a, const auto& b) { return a.second == -1 || a == b; });
-}
-
-void hold_as_other_cell(ElementCells& mesh, std::int32_t element) {
-  for (const auto& [corner, middle] : middles_of(mesh, element)) {
-    for (const std::int32_t v : {corner, middle}) {
-      if (v >= 0) {
-        mesh.in_other_cell[v] = 1;
-      }
-    }
-  }
-  ++mesh.other_cells;
 }
 
 }  // namespace
@@ -77,6 +72,21 @@ std::vector<std::int32_t> leave_out(ElementCells& mesh, std::span<const std::int
   mesh.cells = std::move(cells);
   mesh.quadratics = std::move(quadratics);
   return numbers;
+}
+
+void hold_as_other_cell(ElementCells& mesh, std::int32_t element) {
+  const auto hold = [&mesh](std::span<const std::int32_t> nodes) {
+    for (const std::int32_t v : nodes) {
+      if (v != no_corner) {
+        mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
+      }
+    }
+  };
+  hold(mesh.elements[static_cast<std::size_t>(element)]);
+  if (const auto found = quadratic_of(mesh, element); found != mesh.quadratics.end()) {
+    hold(found->middles);
+  }
+  ++mesh.other_cells;
 }
 
 std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::int32_t cell) {

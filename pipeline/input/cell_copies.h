@@ -25,6 +25,10 @@ std::span<const CellCopy> copies_in_cell(std::span<const CellCopy> copies, std::
 /// then, -1 for those left out. Complexity: linear.
 std::vector<std::int32_t> leave_out(ElementCells& mesh, std::span<const std::int32_t> left_out);
 
+/// Counts the element, which is to be left out, as another cell, and holds its vertices, those between corners too.
+/// Complexity: log n.
+void hold_as_other_cell(ElementCells& mesh, std::int32_t element);
+
 /// Takes elements that have the sides of one before them, in whatever order, out of those of the mesh, which has
 /// each once then: they are its `copies`. Programs list elements again for every group that has them. A triangle of six
 /// nodes whose middles are others counts as another cell: its vertices are held. Notes say how many there are of both.

@@ -34,10 +34,14 @@ bool is_high_order(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return type == biquadratic_triangle || (type == cell_type::lagrange_triangle && vertices.size() > 6);
 }
 
-/// 8 or 9 for a quadrilateral with so many nodes, else 0.
-std::size_t nodes_of_quadratic_quad(std::uint8_t type, std::span<const std::int32_t> vertices) {
+constexpr std::uint8_t pixel = 8;  // a quadrilateral whose corners go by rows
+
+/// 4, 8 or 9 for a quadrilateral with so many nodes, else 0.
+std::size_t nodes_of_quad(std::uint8_t type, std::span<const std::int32_t> vertices) {
   const std::uint8_t fixed_order = type_of_fixed_order(type, vertices.size());
-  const std::size_t nodes = fixed_order == cell_type::quadratic_quad     ? 8
+  const bool is_straight = type == pixel || ordinary_type(type, vertices.size()) == cell_type::quad;
+  const std::size_t nodes = is_straight                                  ? 4
+                            : fixed_order == cell_type::quadratic_quad   ? 8
                             : fixed_order == cell_type::biquadratic_quad ? 9
                                                                          : 0;
   return vertices.size() == nodes ? nodes : 0;
@@ -136,13 +140,21 @@ bool take_all(const CellList& cells, ElementCells& mesh, Workers& workers) {
   return true;
 }
 
+/// The first cells that repeat a vertex.
+struct FirstRepeating {
+  std::optional<std::size_t> triangle;
+  std::size_t quad = 0;  ///< where there is one
+};
+
 /// Counts a cell that is no element, and holds its vertices.
-void hold_cell(const MeshDocument& document, std::size_t cell, std::optional<std::size_t>& first_repeating,
-               ElementCells& mesh) {
+void hold_cell(const MeshDocument& document, std::size_t cell, FirstRepeating& first, ElementCells& mesh) {
   const std::uint8_t type = document.cells.types[cell];
   const auto vertices = document.cells[cell];
   if (is_flat_triangle(type, vertices) && mesh.repeating_triangles++ == 0) {
-    first_repeating = cell;
+    first.triangle = cell;
+  }
+  if (is_repeating_quad(type, vertices) && mesh.repeating_quads++ == 0) {
+    first.quad = cell;
   }
   mesh.high_order_triangles += is_high_order(type, vertices) ? 1 : 0;
   mesh.high_order_quads += is_high_order_quad(type, vertices) ? 1 : 0;
@@ -173,7 +185,7 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
       (quads == Quads::smooth && take_all<MixedElement>(document.cells, mesh, workers))) {
     return;
   }
-  std::optional<std::size_t> first_repeating;
+  FirstRepeating first;
   std::int64_t collapsed = 0;
   mesh.cells.reserve(document.cells.size());
   ElementLister lister(mesh);
@@ -196,12 +208,19 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
       }
       lister.add(quad->corners, c);
     } else {
-      hold_cell(document, c, first_repeating, mesh);
+      hold_cell(document, c, first, mesh);
     }
   }
   lister.finish();
-  mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating_triangles, first_repeating,
+  mesh.notes = notes_of_other_cells(mesh.other_cells - mesh.repeating_quads, mesh.repeating_triangles, first.triangle,
                                     lister.is_mixed() ? "triangle and quadrilateral" : "triangle");
+  if (mesh.repeating_quads > 0) {
+    mesh.notes.push_back(
+        counted(mesh.repeating_quads, "quadrilateral", "quadrilaterals") + " repeating a node (the first is cell " +
+        std::to_string(first.quad) +
+        "): kept as they are, their vertices held fixed; listed as triangles of three or six nodes, or "
+        "with nodes that differ, they are smoothed");
+  }
   if (collapsed > 0) {
     mesh.notes.push_back(counted(collapsed, "quadrilateral repeats a corner: it is smoothed as the triangle that it is",
                                  "quadrilaterals repeat a corner: they are smoothed as the triangles that they are"));
@@ -262,16 +281,12 @@ std::optional<CellTriangle> triangle_of_cell(std::uint8_t type, std::span<const 
 }
 
 std::optional<CellQuad> quad_of_cell(std::uint8_t type, std::span<const std::int32_t> vertices) {
-  constexpr std::uint8_t pixel = 8;  // its corners go by rows
-  const bool is_pixel = type == pixel && vertices.size() == 4;
-  const bool is_straight =
-      is_pixel || (ordinary_type(type, vertices.size()) == cell_type::quad && vertices.size() == 4);
-  const std::size_t nodes = is_straight ? 4 : nodes_of_quadratic_quad(type, vertices);
+  const std::size_t nodes = nodes_of_quad(type, vertices);
   if (nodes == 0 || repeats_a_vertex(vertices)) {
     return std::nullopt;
   }
   CellQuad quad{{vertices[0], vertices[1], vertices[2], vertices[3]}, std::nullopt};
-  if (is_pixel) {
+  if (type == pixel) {
     std::swap(quad.corners[2], quad.corners[3]);
   } else if (nodes > 4) {
     quad.middles = {vertices[4], vertices[5], vertices[6], vertices[7], nodes == 9 ? vertices[8] : no_corner};
@@ -281,6 +296,10 @@ std::optional<CellQuad> quad_of_cell(std::uint8_t type, std::span<const std::int
 
 bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return (is_triangle(type, vertices) || is_quadratic(type, vertices)) && repeats_a_vertex(vertices);
+}
+
+bool is_repeating_quad(std::uint8_t type, std::span<const std::int32_t> vertices) {
+  return nodes_of_quad(type, vertices) > 0 && repeats_a_vertex(vertices) && !triangle_of_quad(type, vertices);
 }
 
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices) {

@@ -45,9 +45,11 @@ struct ElementCells {
   std::vector<std::uint8_t> in_cell;         ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;              ///< cells that are no elements
   std::int64_t repeating_triangles = 0;      ///< those of them that are triangles but for a vertex that they repeat
+  std::int64_t repeating_quads = 0;          ///< and quadrilaterals that repeat one and are no triangles for that
   std::int64_t high_order_triangles = 0;     ///< those of them that are triangles of seven nodes, of ten, or of more
   std::int64_t high_order_quads = 0;         ///< and quadrilaterals of six nodes, or of more than nine
   std::int64_t held_quads = 0;               ///< and other quadrilaterals: Quads::hold
+  std::int64_t crossed_quads = 0;            ///< and those that hold_crossed_quads() has found
   std::vector<std::string> notes;            ///< what the user should know, one sentence each
 
   /// Makes these the elements.
@@ -70,9 +72,9 @@ inline std::string_view kind_of_elements(const ElementCells& mesh) {
 /// Finds them; of quadrilaterals what `quads` says. A triangle strip counts as its triangles (see strip_triangles.h),
 /// and one with nodes in the middle of its sides as that of its corners, beside what `quadratics` says; see
 /// triangle_of_cell() for the others. A note says how many quadrilaterals are triangles, and names elements of more
-/// nodes. A triangle that repeats a vertex counts as another cell: it is kept, its vertices are held, and a note says
-/// so. Sides that are named boundaries (named_sides.h) hold their vertices as line cells do. Where the mesh lies makes
-/// no difference. Complexity: linear.
+/// nodes. A triangle that repeats a vertex counts as another cell, and so does a quadrilateral that is no triangle for
+/// that: it is kept, its vertices are held, and a note says so. Sides that are named boundaries (named_sides.h) hold
+/// their vertices as line cells do. Where the mesh lies makes no difference. Complexity: linear.
 ElementCells element_cells(const MeshDocument& document, Workers& workers, Quads quads = Quads::smooth);
 
 /// Not of a temporary: the elements may be the document's own.
@@ -102,6 +104,9 @@ std::optional<CellQuad> quad_of_cell(std::uint8_t type, std::span<const std::int
 
 /// Whether the cell would be a triangle, did it not repeat a corner, so that it has no area.
 bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices);
+
+/// Whether the cell would be a quadrilateral, did it not repeat a node, and is no triangle. Constant time.
+bool is_repeating_quad(std::uint8_t type, std::span<const std::int32_t> vertices);
 
 /// How many triangles of a mesh a cell of that type counts as, 0 where it is none.
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices);

@@ -59,6 +59,11 @@ void require_elements(std::int64_t elements, std::int64_t cells, const std::file
                         counted(unsmoothed.held_quads, "is a quadrilateral that is", "are quadrilaterals that are") +
                         " held; --quads smooth smooths them");
   }
+  if (unsmoothed.crossed_quads > 0) {
+    throw ReadError(path, holds + "element that could be smoothed; " +
+                              counted(unsmoothed.crossed_quads, "is a quadrilateral", "are quadrilaterals") +
+                              " whose corners are not listed in turn, around the element: list them so");
+  }
   if (unsmoothed.high_order_triangles > 0) {
     throw ReadError(path, holds + "triangle of three or six nodes; " + has(unsmoothed.high_order_triangles) +
                               " seven, ten or more (cubic triangles and the like), which are not smoothed: save the "
@@ -124,12 +129,14 @@ bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<cons
   return fit.has_value();
 }
 
-void settle_middles(PlanarMesh& mesh, std::span<const double> points, std::vector<std::uint8_t>& named) {
-  mesh.middles = settle_middles(mesh.elements, mesh.quadratics, named, mesh.in_other_cell);
+std::int64_t settle_middles(PlanarMesh& mesh, std::span<const double> points, std::vector<std::uint8_t>& named) {
+  SettledMiddles settled = settle_middles(mesh.elements, mesh.quadratics, named, mesh.in_other_cell);
+  mesh.middles = std::move(settled.following);
   find_shares(mesh.middles, [points](std::int32_t vertex) {
     const double* const p = points.data() + 3 * static_cast<std::size_t>(vertex);
     return std::array<double, 3>{p[0], p[1], p[2]};
   });
+  return settled.shared;
 }
 
 }  // namespace trismooth

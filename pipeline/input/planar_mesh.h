@@ -45,6 +45,7 @@ struct UnsmoothedCells {
   std::int64_t high_order_triangles = 0;  ///< of more than six nodes
   std::int64_t high_order_quads = 0;      ///< of more than nine, or of six
   std::int64_t held_quads = 0;            ///< others
+  std::int64_t crossed_quads = 0;         ///< others whose corners are not listed in turn
 };
 
 /// Throws ReadError naming `path` for a mesh of that many cells, of which none is an element that can be smoothed.
@@ -91,8 +92,9 @@ bool settle_plane(PlanarMesh& mesh, const MeshDocument& document, std::span<cons
 
 /// Tells which middles of the mesh's quadratic elements follow their corners (mesh.middles), and at which fraction of
 /// their sides they lie (`points`: x, y, z of every vertex of the document, as the file has them), and holds where it
-/// cannot be, in `named` (a byte a vertex, or empty) and mesh.in_other_cell: see middle_nodes.h of smoothing.
-void settle_middles(PlanarMesh& mesh, std::span<const double> points, std::vector<std::uint8_t>& named);
+/// cannot be, in `named` (a byte a vertex, or empty) and mesh.in_other_cell: see middle_nodes.h of smoothing. How many
+/// stay since they are shared: SettledMiddles::shared.
+std::int64_t settle_middles(PlanarMesh& mesh, std::span<const double> points, std::vector<std::uint8_t>& named);
 
 /// The vertex numbers (from 0, separated by white space, '#' comments) of a text file. Throws ReadError, also for a
 /// number that is not below `vertex_count`.

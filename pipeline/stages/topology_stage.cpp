@@ -16,6 +16,7 @@
 #include "trismooth/pipeline/input/line_groups.h"
 #include "trismooth/pipeline/input/map_mesh.h"
 #include "trismooth/pipeline/input/near_corners.h"
+#include "trismooth/pipeline/input/odd_quads.h"
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/input/slide_lines.h"
 #include "trismooth/pipeline/stages/field_stage.h"
@@ -213,6 +214,34 @@ void note_held_middles(RunState& run, std::vector<std::uint8_t> held) {
   }
 }
 
+/// Quadrilaterals without thickness keep their sides together, unless no sets are to hold anything.
+void hold_thin_quads(RunState& run, std::vector<std::uint8_t>& fixed) {
+  if (run.mesh.elements.are_triangles() || holds_no_sets(run.options.fixed_sets)) {
+    return;
+  }
+  // (The file's own reader has told of those of its sets.)
+  std::vector<std::uint8_t> known = fixed;
+  for (const NamedSet& set : run.document.implied_sets) {
+    add_vertices(known, set.members, run.document.point_count());
+  }
+  const ThinQuads thin = find_thin_quads(run.mesh, run.document.points, known);
+  fixed = united(fixed, thin.flags);
+  if (thin.count > 0) {
+    run.note(counted(thin.count, "quadrilateral has no thickness, as elements of interfaces and cohesive zones: its",
+                     "quadrilaterals have no thickness, as elements of interfaces and cohesive zones: their") +
+             " vertices are held; --fixed-set none frees them");
+  }
+}
+
+void note_shared_middles(RunState& run, std::int64_t count) {
+  if (count > 0) {
+    run.note(
+        counted(count, "node in the middle of a side or element is", "nodes in the middle of sides or elements are") +
+        " a corner as well, or in the middle of others too: held, with the corners around " +
+        (count == 1 ? "it" : "them") + "; a node of its own for each side and element lets them move");
+  }
+}
+
 /// Whether the host goes by halfedges. Beyond so many triangles their memory is more than it is worth, and the handles
 /// of OpenMesh come to their end; a check alone has no use for them.
 bool goes_by_halfedges(const RunState& run) {
@@ -265,6 +294,9 @@ void connect_mesh(RunState& run) {
   } else if (looks_geographic(mesh, document)) {
     run.note(std::string(looks_geographic_note));
   }
+  hold_crossed_quads(mesh);
+  require_elements(std::ssize(mesh.cells), std::ssize(document.cells.types), options.input,
+                   {.crossed_quads = mesh.crossed_quads});
   merge_near_corners(run);
   take_out_copies(mesh, run.workers);
   std::ranges::copy(mesh.notes, std::back_inserter(result.notes));
@@ -276,6 +308,7 @@ void connect_mesh(RunState& run) {
                                  options.slide.along != Slide::off);
   std::ranges::move(sets.notes, std::back_inserter(result.notes));
   std::vector<std::uint8_t> fixed = united(named.flags, sets.flags);
+  hold_thin_quads(run, fixed);
   std::unique_ptr<const HalfedgeWay> halfedges;
   if (options.halfedge_stage) {
     halfedges = connect_by_halfedges(run);
@@ -289,7 +322,7 @@ void connect_mesh(RunState& run) {
   std::ranges::copy(options.fixed_vertices, std::back_inserter(ids));
   if (!mesh.quadratics.empty()) {
     add_vertices(fixed, ids, document.point_count());
-    settle_middles(mesh, document.points, fixed);
+    note_shared_middles(run, settle_middles(mesh, document.points, fixed));
   }
   if (!mesh.merged.empty()) {
     add_vertices(fixed, ids, document.point_count());
@@ -313,6 +346,7 @@ void connect_mesh(RunState& run) {
   input.quadratic_quadrilaterals = mesh.count_quadratic_quads();
   input.quadratic_triangles = std::ssize(mesh.quadratics) - input.quadratic_quadrilaterals;
   input.middle_nodes = std::ssize(mesh.middles);
+  input.crossed_quadrilaterals = mesh.crossed_quads;
   result.topology = run.found.found_by;
   const MeshFacts facts{.vertices = input.vertices,
                         .elements = static_cast<std::int64_t>(mesh.elements.size()),

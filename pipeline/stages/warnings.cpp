@@ -122,12 +122,14 @@ std::string note_of_layers(const LayersResult& layers) {
 
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
   std::vector<std::string> warnings;
-  if (result.after && result.after->inverted > 0) {
+  // (Of quadrilaterals whose corners are not in turn a note has told.)
+  const std::int64_t crossed = result.input.crossed_quadrilaterals;
+  if (result.after && result.after->inverted > crossed) {
     const auto [one, several] = element_words(result.before.triangles, result.before.quadrilaterals);
-    const std::int64_t inverted = result.after->inverted;
+    const std::int64_t inverted = result.after->inverted - crossed;
     const bool is_one = inverted == 1;
     warnings.push_back(fmt::format("{} inverted {} {} ({} before); {}", inverted, is_one ? one : several,
-                                   is_one ? "remains" : "remain", result.before.inverted,
+                                   is_one ? "remains" : "remain", result.before.inverted - crossed,
                                    what_mends(result.smoothing)));
   }
   if (result.quadratic_after && result.quadratic_after->invalid > 0) {

@@ -262,6 +262,7 @@ void bind_results(nb::module_& module) {
       .def_prop_ro("guard_rounds", of_smoothing<&SmoothingResult::guard_rounds>())
       .def_prop_ro("free_vertices", of_smoothing<&SmoothingResult::free_vertices>())
       .def_prop_ro("quadrilaterals", of_smoothing<&SmoothingResult::quadrilaterals>())
+      .def_prop_ro("shared_middles", of_smoothing<&SmoothingResult::shared_middles>())
       .def_prop_ro("layers", &layers_of)
       .def_prop_ro("following", &following_of)
       .def_prop_ro("inverted", of_smoothing<&SmoothingResult::inverted>())

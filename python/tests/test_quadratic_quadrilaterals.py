@@ -70,6 +70,19 @@ def test_rows_of_other_numbers_of_nodes_are_refused_by_quality_as_well():
                 call(points, rows)
 
 
+@pytest.mark.parametrize("place, other", [(4, (0, 0)), (4, (9, 5)), (8, (12, 8))])
+def test_nodes_that_cannot_follow_are_told_with_what_they_hold(place, other):
+    points, elements, _ = grid()
+    element = 24  # in the middle of the mesh, with a centre
+    free = trismooth.smooth(points, elements)
+    assert free.notes == []
+    elements[element, place] = elements[other]
+    with pytest.warns(trismooth.MeshWarning, match="a node of its own for each side and element lets them move"):
+        result = trismooth.smooth(points, elements)
+    assert (result.points[elements[other]] == points[elements[other]]).all()
+    assert result.free_vertices < free.free_vertices
+
+
 def test_corners_alone_in_rows_of_nine_are_corners_alone():
     points, elements, _ = grid(centres=False)
     points, corners = points[: (N + 1) ** 2], elements[:, :4]

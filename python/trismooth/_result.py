@@ -89,9 +89,21 @@ def touching_lines_note(outcome: _core.Outcome) -> List[str]:
     ]
 
 
+def shared_middles_note(outcome: _core.Outcome) -> List[str]:
+    """What to say of nodes between corners that cannot follow these: a sentence, or none."""
+    count = outcome.shared_middles
+    if count == 0:
+        return []
+    return [
+        f"nodes in the middle of sides or elements that are corners as well, or in the middle of others too: {count:,}; they "
+        "are held, with the corners around them, and a node of its own for each side and element lets them move"
+    ]
+
+
 def notes_of(outcome: _core.Outcome) -> List[str]:
     """What to say of what a smoothing did, one sentence each."""
     return [
+        *shared_middles_note(outcome),
         *layers_notes(outcome),
         *touching_lines_note(outcome),
         *time_note(outcome),
