@@ -16,6 +16,7 @@ struct FormatContent {
   bool names = false;               ///< of values and sets; or the codec's what_is_lost tells of these itself
   bool quads = true;                ///< also those that repeat a corner
   bool curved_cells = true;         ///< with nodes in the middle of their sides
+  bool eight_node_quads = true;     ///< among these: without a node in the centre
   bool strips = false;              ///< of triangles
   bool cells_of_any_order = false;  ///< VTK's Lagrange and Bezier cells
 };

@@ -62,15 +62,18 @@ std::string describe_strips(const MeshDocument& document, const MeshDocument& ex
          counted(triangles, "triangle", "triangles");
 }
 
-/// What has_curved_cells() as a format holds it that has straight ones only.
-std::string describe_straight(const MeshDocument& document, const MeshDocument& straight, FileFormat target) {
+/// What has_curved_cells() as a format holds it that has none of these, or straight ones only.
+std::string describe_straight(const MeshDocument& document, const MeshDocument& straight, CurvedCells which,
+                              FileFormat target) {
   std::size_t cells = 0;
   for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
     cells += document.cells.types[cell] == straight.cells.types[cell] ? 0 : 1;
   }
   const std::size_t points = document.point_count() - straight.point_count();
   return std::string(title_of(target)) +
-         " holds straight cells only: " + counted(cells, "curved one is", "curved ones are") +
+         (which == CurvedCells::all
+              ? " holds straight cells only: " + counted(cells, "curved one is", "curved ones are")
+              : " holds no quadrilaterals of eight nodes: " + counted(cells, "one is", "ones are")) +
          " written by their corners" +
          (points == 0 ? "" : ", without " + std::to_string(points) + " points in the middle of sides");
 }
@@ -100,9 +103,10 @@ std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat tar
     losses.push_back(describe_collapsed(quads, target));
     changed = with_collapsed_quads_as_triangles(now());
   }
-  if (!holds.curved_cells && has_curved_cells(now())) {
-    MeshDocument straight = with_straight_cells(now());
-    losses.push_back(describe_straight(now(), straight, target));
+  const CurvedCells not_held = holds.curved_cells ? CurvedCells::eight_node_quads : CurvedCells::all;
+  if (!(holds.curved_cells && holds.eight_node_quads) && has_curved_cells(now(), not_held)) {
+    MeshDocument straight = with_straight_cells(now(), not_held);
+    losses.push_back(describe_straight(now(), straight, not_held, target));
     changed = std::move(straight);
   }
   return changed;

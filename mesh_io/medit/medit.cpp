@@ -32,10 +32,11 @@ bool is_medit(std::string_view bytes) {
 
 }  // namespace
 
-const Codec medit_codec{{FileFormat::medit, "medit", "Medit", {".mesh", ".meshb"}, {.names = true}, 1},
-                        &read_medit,
-                        &write_medit,
-                        &lost_in_medit,
-                        &is_medit};
+const Codec medit_codec{
+    {FileFormat::medit, "medit", "Medit", {".mesh", ".meshb"}, {.names = true, .eight_node_quads = false}, 1},
+    &read_medit,
+    &write_medit,
+    &lost_in_medit,
+    &is_medit};
 
 }  // namespace trismooth

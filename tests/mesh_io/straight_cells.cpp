@@ -91,6 +91,29 @@ TEST_CASE("formats that hold straight cells only get the triangles of a curved m
   }
 }
 
+TEST_CASE(
+    "Medit gets the corners of quadrilaterals of eight nodes, beside curved cells that it holds, and a note says so") {
+  // A triangle of six nodes shares a side and its middle, 7, with a quadrilateral of eight; one of nine is beside both.
+  MeshDocument document;
+  document.format = FileFormat::medit;
+  for (int i = 0; i < 19; ++i) {
+    document.points.insert(document.points.end(), {double(i % 5), double(i / 5), 0});
+  }
+  document.cells.append(cell_type::quadratic_quad, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7});
+  document.cells.append(cell_type::quadratic_triangle, std::vector<std::int32_t>{0, 3, 8, 7, 9, 10});
+  document.cells.append(cell_type::biquadratic_quad, std::vector<std::int32_t>{11, 12, 2, 1, 14, 15, 5, 16, 17});
+  CHECK(what_is_lost(document, FileFormat::medit).front() ==
+        "Medit holds no quadrilaterals of eight nodes: 1 one is written by their corners, without 2 points in the "
+        "middle of "
+        "sides");
+  const TextFormat text{".mesh"};
+  const MeshDocument read = text.read(text.written(document));
+  CHECK(std::ranges::count(read.cells.types, cell_type::quad) == 1);
+  CHECK(std::ranges::count(read.cells.types, cell_type::quadratic_triangle) == 1);
+  CHECK(std::ranges::count(read.cells.types, cell_type::biquadratic_quad) == 1);
+  CHECK(read.point_count() == document.point_count() - 2);
+}
+
 TEST_CASE("VTK's Lagrange cells of order 1 and 2 are written to other formats as the ordinary ones that they are") {
   struct Pair {
     std::uint8_t ordinary;

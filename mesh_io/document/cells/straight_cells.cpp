@@ -19,7 +19,10 @@ struct StraightCell {
   std::size_t corners = 0;  ///< 0: the cell is none of those that become straight
 };
 
-StraightCell straight_cell_of(std::uint8_t type) {
+StraightCell straight_cell_of(std::uint8_t type, CurvedCells which) {
+  if (which == CurvedCells::eight_node_quads && type != cell_type::quadratic_quad) {
+    return {};
+  }
   switch (type) {
     case cell_type::quadratic_edge:
       return {cell_type::line, 2};
@@ -54,19 +57,19 @@ void renumber(std::vector<NamedSet>& sets, const std::vector<std::int32_t>& numb
 
 }  // namespace
 
-bool has_curved_cells(const MeshDocument& document) {
+bool has_curved_cells(const MeshDocument& document, CurvedCells which) {
   return std::ranges::any_of(document.cells.types,
-                             [](std::uint8_t type) { return straight_cell_of(type).corners > 0; });
+                             [which](std::uint8_t type) { return straight_cell_of(type, which).corners > 0; });
 }
 
-MeshDocument with_straight_cells(const MeshDocument& document) {
+MeshDocument with_straight_cells(const MeshDocument& document, CurvedCells which) {
   MeshDocument straight = document;
   straight.original = nullptr;
   straight.cells = {};
   std::vector<bool> left_out(document.point_count());
   for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
     const auto vertices = document.cells[cell];
-    const StraightCell corners = straight_cell_of(document.cells.types[cell]);
+    const StraightCell corners = straight_cell_of(document.cells.types[cell], which);
     straight.cells.append(corners.corners > 0 ? corners.type : document.cells.types[cell],
                           corners.corners > 0 ? vertices.first(corners.corners) : vertices);
     for (const std::int32_t middle : vertices.subspan(corners.corners > 0 ? corners.corners : vertices.size())) {
