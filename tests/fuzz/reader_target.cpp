@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "trismooth/pipeline/input/fixed_array.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
 #include "trismooth/pipeline/input/regions.h"
+#include "trismooth/pipeline/pipeline.h"
 #include "trismooth/smoothing/smooth.h"
 #include "trismooth/space/plane_smoothing.h"
 
@@ -183,6 +185,49 @@ bool smooth(MeshDocument& document, HashedChoices& choices) {
   return true;
 }
 
+bool has_quadrilaterals(const MeshDocument& document) {
+  for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
+    if (trismooth::quad_of_cell(document.cells.types[cell], document.cells[cell])) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Smooths the mesh with its quadrilaterals as the program does. What is refused has not moved, the smallest shape is
+/// no smaller, nothing more is invalid, and the bits are those of another number of threads.
+void check_quadrilaterals(const MeshDocument& read, HashedChoices& choices) {
+  trismooth::PipelineOptions options;
+  options.input = input_path;
+  options.smoothing = choose_options(choices);
+  std::vector<double> found;
+  for (const int threads : {1, 2}) {
+    MeshDocument document = read;
+    options.smoothing.threads = threads;
+    try {
+      const trismooth::PipelineResult result = trismooth::smooth_document(document, options);
+      const trismooth::QualityReport& before = result.before;
+      const trismooth::QualityReport& after = *result.after;
+      if (options.smoothing.guard && result.smoothing->moved_vertices > 0) {
+        constexpr trismooth::Metric shape = trismooth::Metric::shape;
+        const bool is_turned = result.smoothing->untangling && result.smoothing->untangling->turned_components > 0;
+        require(is_turned || after[shape].min >= before[shape].min, "the smallest shape of both kinds is smaller");
+        require(after.inverted + after.degenerate <= before.inverted + before.degenerate,
+                "more elements are not valid");
+        require(!result.quadratic_after || result.quadratic_after->invalid <= result.quadratic_before->invalid,
+                "more curved elements are not valid");
+      }
+    } catch (const ReadError&) {
+      require(document.points == read.points, "a mesh that is refused has moved");
+    } catch (const std::invalid_argument&) {
+      require(document.points == read.points, "a mesh that is refused has moved");
+    }
+    require_guarantees(document);
+    require(threads == 1 || document.points == found, "the bits of quadrilaterals depend on threads");
+    found = document.points;
+  }
+}
+
 /// What is stored of a coordinate that moves is what the file has characters for.
 void round_moved(MeshDocument& document, const std::vector<double>& before) {
   for (std::size_t i = 0; i < before.size(); ++i) {
@@ -293,12 +338,16 @@ void run_reader(FileFormat format, std::span<const std::uint8_t> input) {
   check_written_back(document, bytes);
   check_conversion(document, trismooth::all_formats()[choices.below(trismooth::all_formats().size())]);
   const std::vector<double> before = document.points;
+  const std::optional<MeshDocument> read = has_quadrilaterals(document) ? std::optional(document) : std::nullopt;
   if (smooth(document, choices)) {
     round_moved(document, before);
     check_moved(document);
     if (choices.below(4) == 0) {
       check_added_arrays(document);
     }
+  }
+  if (read) {
+    check_quadrilaterals(*read, choices);
   }
 }
 

@@ -104,8 +104,8 @@ void join(PieceFiles& files, RankMesh& mesh) {
   }
   const bool are_triangles =
       std::ranges::all_of(files.pieces, [](const Piece& piece) { return piece.mesh.elements.are_triangles(); });
-  mesh.joined_elements = are_triangles ? OwnElements(joined_elements<Triangle>(files))
-                                       : OwnElements(joined_elements<MixedElement>(files));
+  mesh.joined_elements =
+      are_triangles ? OwnElements(joined_elements<Triangle>(files)) : OwnElements(joined_elements<MixedElement>(files));
   mesh.elements = mesh.joined_elements.list();
   mesh.triangle_ids = std::move(triangle_ids);
 }
