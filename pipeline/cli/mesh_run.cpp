@@ -398,6 +398,8 @@ void add_hold_options(CLI::App& command, MeshRunSettings& settings) {
                     })
       ->excludes(ids)
       ->group(option_group::constraints);
+  add_enum_option(command, "--quads", options.quads, "Quadrilaterals: smooth them as triangles, or hold their vertices")
+      ->group(option_group::constraints);
 }
 
 void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
@@ -412,9 +414,6 @@ void add_mesh_options(CLI::App& command, MeshRunSettings& settings) {
       .add_flag("--geographic", options.geographic,
                 "x is longitude and y latitude, in degrees: shapes are those on the sphere, also across the date line")
       ->group(option_group::coordinates);
-  add_enum_option(command, "--quads", options.quads,
-                  "Quadrilaterals of four nodes: smooth them as triangles, or hold their vertices")
-      ->group(option_group::constraints);
   add_parsed_option(command, "--merge", "DISTANCE",
                     "Corners of elements that are no further apart count as one vertex, in the file's unit; they move "
                     "together, and the file keeps all of them [none are joined]",
