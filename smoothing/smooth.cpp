@@ -16,6 +16,7 @@
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/moved_from.h"
+#include "trismooth/base/triangles_alone.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/invalid_triangles.h"
@@ -33,17 +34,15 @@ class SmoothingPlan::Implementation {
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
     if (indices.may_have_quadrilaterals()) {
       const std::span<const MixedElement> elements = indices.elements(vertex_count, mixed_);
-      if (!are_triangles(elements)) {
+      if (auto triangles = triangles_alone(elements)) {
+        triangles_ = *std::move(triangles);
+        release(mixed_);
+      } else {
         keep(elements, mixed_);
         note_ = host_finds_quadrilaterals(options);
         mesh_.emplace(vertex_count_, std::span<const MixedElement>(mixed_), constraints, workers_);
         return;
       }
-      triangles_.resize(elements.size());
-      std::ranges::transform(elements, triangles_.begin(), [](const MixedElement& e) {
-        return Triangle{e[0], e[1], e[2]};
-      });
-      release(mixed_);
     }
     const std::span<const Triangle> listed =
         indices.may_have_quadrilaterals() ? triangles_ : indices.triangles(vertex_count, triangles_);
@@ -101,10 +100,6 @@ class SmoothingPlan::Implementation {
   static const SmoothingOptions& checked(const SmoothingOptions& options) {
     options.validate();
     return options;
-  }
-
-  static bool are_triangles(std::span<const MixedElement> elements) {
-    return std::ranges::all_of(elements, [](const MixedElement& element) { return element[3] == no_corner; });
   }
 
   template <class Corners>

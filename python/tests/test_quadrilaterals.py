@@ -152,8 +152,8 @@ def test_what_quadrilaterals_cannot_have_is_refused_by_name():
         trismooth.smooth(points, [[0, 1, 2, 999]])
     with pytest.raises(trismooth.MeshError, match="^triangles: element 0 repeats a vertex; of a triangle the last of four numbers is -1"):
         trismooth.smooth(points, [[0, 1, 14, 14]])
-    with pytest.raises(ValueError, match="^triangles: four vertex numbers each"):
-        trismooth.MovingMesh(points, elements)
+    with pytest.raises(trismooth.MeshError, match="^triangles: element 0 names vertex 999"):
+        trismooth.MovingMesh(points, [[0, 1, 2, 999]])
     np.testing.assert_array_equal(points, before)
 
 

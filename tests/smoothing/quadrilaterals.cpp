@@ -17,7 +17,6 @@
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/quality/quality.h"
-#include "trismooth/smoothing/moving_mesh.h"
 #include "trismooth/smoothing/rings/colouring.h"
 #include "trismooth/smoothing/smooth.h"
 
@@ -519,9 +518,6 @@ TEST_CASE("what quadrilaterals cannot have is refused, and nothing moves") {
     CHECK(refusal([&] { smooth(xy_points(xy), faulty.elements); }) ==
           "mesh: element 4 names vertex -1, which is no vertex: only the last of four numbers is -1, of a triangle");
   }
-  CHECK(refusal([&] { const MovingMesh moving(xy_points(xy), mesh.elements); }) ==
-        "argument: triangles: four vertex numbers each, expected three (quadrilaterals are for quality(), smooth() and "
-        "plans)");
 }
 
 }  // namespace trismooth::smooth_quadrilaterals_test
