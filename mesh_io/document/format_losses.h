@@ -14,7 +14,7 @@
 namespace trismooth {
 
 /// " is not written", or " are not written" of several: how sentences of what is lost end.
-inline std::string not_written(std::size_t count) {
+inline const char* not_written(std::size_t count) {
   return count == 1 ? " is not written" : " are not written";
 }
 
