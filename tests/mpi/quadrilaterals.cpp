@@ -16,6 +16,8 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/mpi/moving_mesh.h"
+#include "trismooth/smoothing/moving_mesh.h"
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
@@ -316,6 +318,37 @@ TEST_CASE("layers of quadrilaterals are kept as in the whole, wherever they are 
   CHECK(expected.result.layers.kept > 0);
   for (int i = 0; i < 6; ++i) {
     CHECK(in_pieces(whole, any_cut(whole, random), options, expected) == "");
+  }
+}
+
+TEST_CASE("quadrilaterals in pieces follow their boundary to the bits of the whole") {
+  Whole whole;
+  whole.mesh = MixedMesh(20, 16, 0.2, 9);
+  std::mt19937_64 random(10);
+  const auto bent = [](std::vector<double> xy) {
+    for (std::size_t i = 0; i < xy.size(); i += 2) {
+      xy[i + 1] += 0.02 * xy[i] * (20 - xy[i]) * xy[i + 1] / 16;
+    }
+    return xy;
+  };
+  std::vector<double> expected = bent(whole.mesh.xy());
+  const FollowResult of_whole =
+      trismooth::MovingMesh(whole.mesh.points, whole.mesh.elements).follow(xy_points(expected));
+  REQUIRE(of_whole.is_valid());
+  for (int i = 0; i < 4; ++i) {
+    const Piece piece = piece_of(whole, any_cut(whole, random), 1);
+    trismooth::mpi::MovingMesh moving(MPI_COMM_WORLD, xy_points(piece.xy), piece.mesh());
+    std::vector<double> xy = bent(piece.xy);
+    const FollowResult result = moving.follow(xy_points(xy));
+    CHECK(result.is_valid());
+    CHECK(same_bits(result.mean_relative_shape, of_whole.mean_relative_shape));
+    std::string wrong;
+    for (std::size_t k = 0; k < xy.size(); ++k) {
+      if (!same_bits(xy[k], expected[2 * static_cast<std::size_t>(piece.ids[k / 2]) + k % 2])) {
+        wrong = fmt::format("vertex {}", piece.ids[k / 2]);
+      }
+    }
+    REQUIRE(said_by_any(wrong) == "");
   }
 }
 
