@@ -53,8 +53,9 @@ std::string quadrilaterals(FileFormat format, std::size_t nodes) {
     if (number < 0) {
       number = static_cast<std::int32_t>(document.point_count());
       const auto off = [&choices] { return static_cast<double>(choices.below(64)) / 80 - 0.4; };
+      const std::int32_t row = place / row_nodes;
       const double x = place % row_nodes + off();
-      document.points.insert(document.points.end(), {x, place / row_nodes + off(), 0});
+      document.points.insert(document.points.end(), {x, row + off(), 0});
     }
     return number;
   };

@@ -97,7 +97,8 @@ TEST_CASE(
   MeshDocument document;
   document.format = FileFormat::medit;
   for (int i = 0; i < 19; ++i) {
-    document.points.insert(document.points.end(), {double(i % 5), double(i / 5), 0});
+    const int row = i / 5;
+    document.points.insert(document.points.end(), {double(i % 5), double(row), 0});
   }
   document.cells.append(cell_type::quadratic_quad, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7});
   document.cells.append(cell_type::quadratic_triangle, std::vector<std::int32_t>{0, 3, 8, 7, 9, 10});
