@@ -105,8 +105,9 @@ TEST_CASE("a quadrilateral that crosses itself since a vertex is misplaced stays
 MixedMesh layered(std::int32_t columns, std::uint64_t thirds) {
   MixedMesh mesh(columns, 5, 0.2, 3, thirds);
   for (std::int32_t column = 0; column <= columns; ++column) {
-    mesh.points[static_cast<std::size_t>(3 * (columns + 1) + column)] =
-        mesh.points[static_cast<std::size_t>(2 * (columns + 1) + column)];
+    const std::int32_t below = 2 * (columns + 1) + column;
+    const std::int32_t above = below + columns + 1;
+    mesh.points[static_cast<std::size_t>(above)] = mesh.points[static_cast<std::size_t>(below)];
   }
   const auto in_middle = [&](std::int32_t v) { return v / (columns + 1) == 2 || v / (columns + 1) == 3; };
   std::erase_if(mesh.elements, [&](const auto& corners) {
@@ -180,7 +181,8 @@ TEST_CASE("middles that are corners of other elements, or of several sides, are 
     MeshDocument document;
     document.format = FileFormat::vtk;
     for (int v = 0; v < 81; ++v) {
-      document.points.insert(document.points.end(), {double(v % 9), double(v / 9), 0});
+      const int row = v / 9;
+      document.points.insert(document.points.end(), {double(v % 9), double(row), 0});
     }
     for (const Nodes& nodes : cells) {
       document.cells.append(cell_type::biquadratic_quad, nodes);

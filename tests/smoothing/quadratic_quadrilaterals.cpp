@@ -224,7 +224,8 @@ MixedMesh mirrored_inside(std::int32_t columns, std::uint64_t seed, std::uint64_
   MixedMesh mesh(columns, columns, 0.25, seed, thirds);
   for (std::int32_t row = 1; row < columns; ++row) {
     for (std::int32_t column = 1; column < columns; ++column) {
-      double& x = mesh.points[static_cast<std::size_t>(row * (columns + 1) + column)][0];
+      const std::int32_t vertex = row * (columns + 1) + column;
+      double& x = mesh.points[static_cast<std::size_t>(vertex)][0];
       x = columns - x;
     }
   }
