@@ -15,6 +15,7 @@
 
 #include "catch.h"
 #include "command_line_calls.h"
+#include "support/mixed_document.h"
 #include "support/mixed_meshes.h"
 #include "support/scratch_folder.h"
 
@@ -47,17 +48,6 @@ MixedMesh grid(std::uint64_t thirds) {
     }
   }
   return mesh;
-}
-
-MeshDocument document_of(const MixedMesh& mesh) {
-  MeshDocument document;
-  for (const auto& [x, y] : mesh.points) {
-    document.points.insert(document.points.end(), {x, y, 0});
-  }
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    document.cells.append(mesh.is_triangle(e) ? cell_type::triangle : cell_type::quad, mesh.corners(e));
-  }
-  return document;
 }
 
 void add_motion(const MixedMesh& mesh, MeshDocument& document) {

@@ -11,6 +11,7 @@
 #include "trismooth/pipeline/pipeline.h"
 
 #include "catch.h"
+#include "support/mixed_document.h"
 #include "support/mixed_meshes.h"
 #include "support/says.h"
 
@@ -19,18 +20,6 @@ namespace trismooth::odd_quads_test {
 using mixed_meshes::MixedMesh;
 using Numbers = std::vector<double>;
 using Nodes = std::vector<std::int32_t>;
-
-MeshDocument document_of(const MixedMesh& mesh) {
-  MeshDocument document;
-  document.format = FileFormat::vtk;
-  for (const auto& [x, y] : mesh.points) {
-    document.points.insert(document.points.end(), {x, y, 0});
-  }
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    document.cells.append(mesh.is_triangle(e) ? cell_type::triangle : cell_type::quad, mesh.corners(e));
-  }
-  return document;
-}
 
 PipelineOptions options_of(Method method, Untangle untangle = Untangle::off) {
   PipelineOptions options;

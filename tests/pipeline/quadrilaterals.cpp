@@ -24,6 +24,7 @@
 #include "catch.h"
 #include "support/fake_backend.h"
 #include "support/format_sample.h"
+#include "support/mixed_document.h"
 #include "support/mixed_meshes.h"
 #include "support/says.h"
 #include "support/scratch_folder.h"
@@ -31,19 +32,6 @@
 namespace trismooth::quadrilaterals_test {
 
 using mixed_meshes::MixedMesh;
-
-/// The mesh as a document, a cell an element.
-MeshDocument document_of(const MixedMesh& mesh) {
-  MeshDocument document;
-  document.format = FileFormat::vtk;
-  for (const auto& [x, y] : mesh.points) {
-    document.points.insert(document.points.end(), {x, y, 0});
-  }
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    document.cells.append(mesh.is_triangle(e) ? cell_type::triangle : cell_type::quad, mesh.corners(e));
-  }
-  return document;
-}
 
 std::vector<double> xy_of(const MeshDocument& document) {
   std::vector<double> xy;
