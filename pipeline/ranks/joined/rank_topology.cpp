@@ -52,7 +52,7 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
   }
   triangle_count_ = ranks_->sum(static_cast<std::int64_t>(own_count_));
   first_id_ = ranks_->sum_before(static_cast<std::int64_t>(own_count_));
-  const IndexView elements = mesh.elements.visit([](const auto& listed) { return IndexView(listed); });
+  const IndexView elements(mesh.elements);
   const mpi::LocalMesh local{elements, mesh.ids, owners, mesh.ghost_triangles, mesh.triangle_ids};
   const Constraints constraints{.fixed = named, .other_cells = mesh.in_other_cell};
   naming_file(path, [&] {
