@@ -53,7 +53,7 @@ struct MeanRatioEnergy {
     // The derivatives of the area relative to itself: those of 1 / alpha and of tau follow from them.
     const V area_x = -t.c.y * terms.inverse;
     const V area_y = t.c.x * terms.inverse;
-    const V scale = T(2 / shape_constant) * terms.inverse;
+    const V scale = T(2 / best_ratio) * terms.inverse;
     const V ratio_x = -scale * t.pull_x - terms.ratio * area_x;
     const V ratio_y = -scale * t.pull_y - terms.ratio * area_y;
     // Their second derivatives. Products of x and y first: a mesh turned by a right angle has the same bits.
@@ -119,6 +119,9 @@ struct MeanRatioEnergy {
   /// The energy of a corner of a quadrilateral, which has no size of its own.
   using Shapes = MeanRatioEnergy<T, fixed_power, false>;
 
+  /// The sum of squared sides to twice the area of what has the best shape: of a triangle, or of two sides at a corner.
+  static constexpr double best_ratio = has_size ? shape_constant : 2;
+
   constexpr TRISMOOTH_HOST_DEVICE T twice_power() const { return static_cast<T>(2 * power); }
 
   /// The terms of a quadrilateral, from those of its size twice and those that its corners have of their shapes: half
@@ -146,17 +149,23 @@ struct MeanRatioEnergy {
 
   template <class V>
   struct Terms {
-    V tau;
-    V inverse_tau;
+    V tau{};  ///< where it has a size, as inverse_tau
+    V inverse_tau{};
     V inverse;  ///< 1 / (twice the area)
     V ratio;    ///< 1 / alpha
 
     template <bool shaped>
-    constexpr TRISMOOTH_HOST_DEVICE explicit Terms(const SideTriangle<V, shaped>& t)
-        : tau(t.doubled_area * t.inverse_area),
-          inverse_tau(T(1) / tau),  // the only division
-          inverse(inverse_tau * t.inverse_area),
-          ratio(T(1 / shape_constant) * t.in_metric * inverse) {}
+    constexpr TRISMOOTH_HOST_DEVICE explicit Terms(const SideTriangle<V, shaped>& t) {
+      // The only division.
+      if constexpr (has_size) {
+        tau = t.doubled_area * t.inverse_area;
+        inverse_tau = T(1) / tau;
+        inverse = inverse_tau * t.inverse_area;
+      } else {
+        inverse = T(1) / t.doubled_area;
+      }
+      ratio = T(1 / best_ratio) * t.in_metric * inverse;
+    }
   };
 
   /// ratio^(power - 1) and its derivative by the ratio.

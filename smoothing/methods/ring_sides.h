@@ -134,8 +134,8 @@ constexpr TRISMOOTH_HOST_DEVICE SideTriangle<V, true> element_of(const TriangleC
 }
 
 /// A quadrilateral, seen from the vertex: its three corners that change where the vertex moves. Each is the triangle of
-/// its two sides, but with `in_metric` and what follows from it, and with `squares`, of these two sides alone and times
-/// such a factor that equal sides at a right angle are worth as much as an equilateral triangle.
+/// its two sides, but `in_metric` and what follows from it are of these two alone; and so is `squares`, times such a
+/// factor that equal sides at a right angle are worth as much as an equilateral triangle.
 template <class V, bool shaped>
 struct SideQuadrilateral {
   SideTriangle<V, shaped> corners[3];
@@ -172,7 +172,6 @@ template <class T, class V, class Metric>
 constexpr TRISMOOTH_HOST_DEVICE auto element_of(const QuadrilateralCorner<RingSpoke<V>>& corner,
                                                 const RingQuadrilateral<V, Metric>& sides) {
   constexpr bool shaped = !std::is_same_v<Metric, EuclideanMetric<V>>;
-  constexpr T worth = T(shape_constant / 2);
   const auto& [a, o, b] = corner;
   const Metric& metric = sides.metric;
   // One corner, from the area of its two sides, their squares, the side of its triangle that does not end at the
@@ -181,11 +180,11 @@ constexpr TRISMOOTH_HOST_DEVICE auto element_of(const QuadrilateralCorner<RingSp
     const Point2<V> pull = times(metric, spokes);
     return SideTriangle<V, shaped>{c,
                                    doubled_area,
-                                   worth * squares,
-                                   worth * in_metric,
-                                   worth * pull.x,
-                                   worth * pull.y,
-                                   stiffness_of(metric, worth * ends),
+                                   T(shape_constant / 2) * squares,
+                                   in_metric,
+                                   pull.x,
+                                   pull.y,
+                                   stiffness_of(metric, ends),
                                    sides.inverse_area,
                                    corner.next.squared};
   };
