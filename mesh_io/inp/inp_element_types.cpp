@@ -37,6 +37,7 @@ constexpr auto families = std::to_array<Family>({
 });
 
 /// Types whose number is not that of their nodes: beams and pipes of first and second order, and those without one.
+/// B33H, which has two nodes, is meshio's name of lines of three: such elements have the nodes that they list.
 struct Named {
   std::string_view prefix;
   InpElementType type;
@@ -47,28 +48,21 @@ constexpr InpElementType three_nodes{cell_type::quadratic_edge, 3};
 constexpr InpElementType one_node{cell_type::vertex, 1};
 
 constexpr auto named_types = std::to_array<Named>({
-    {"B21", two_nodes},      {"B22", three_nodes},
-    {"B23", two_nodes},      {"B31", two_nodes},
-    {"B32", three_nodes},    {"B33", two_nodes},
-    {"PIPE21", two_nodes},   {"PIPE22", three_nodes},
-    {"PIPE31", two_nodes},   {"PIPE32", three_nodes},
-    {"FRAME2D", two_nodes},  {"FRAME3D", two_nodes},
-    {"SAX1", two_nodes},     {"SAX2", three_nodes},
-    {"DSAX1", two_nodes},    {"DSAX2", three_nodes},
-    {"MAX1", two_nodes},     {"MAX2", three_nodes},
-    {"MGAX1", two_nodes},    {"MGAX2", three_nodes},
-    {"SFMAX1", two_nodes},   {"SFMAX2", three_nodes},
-    {"SFMGAX1", two_nodes},  {"SFMGAX2", three_nodes},
-    {"SPRINGA", two_nodes},  {"SPRING2", two_nodes},
-    {"SPRING1", one_node},   {"DASHPOTA", two_nodes},
-    {"DASHPOT2", two_nodes}, {"DASHPOT1", one_node},
-    {"GAPUNI", two_nodes},   {"GAPCYL", two_nodes},
-    {"GAPSPHER", two_nodes}, {"MASS", one_node},
-    {"ROTARYI", one_node},   {"HEATCAP", one_node},
-    {"PC3D", one_node},      {"PD3D", one_node},
-    {"DCOUP2D", one_node},   {"DCOUP3D", one_node},
-    {"JOINTC", two_nodes},   {"ITSUNI", two_nodes},
-    {"ITSCYL", two_nodes},   {"STRI65", {cell_type::quadratic_triangle, 6}},
+    {"B21", two_nodes},       {"B22", three_nodes},    {"B23", two_nodes},
+    {"B31", two_nodes},       {"B32", three_nodes},    {"B33H", {}},
+    {"B33", two_nodes},       {"PIPE21", two_nodes},   {"PIPE22", three_nodes},
+    {"PIPE31", two_nodes},    {"PIPE32", three_nodes}, {"FRAME2D", two_nodes},
+    {"FRAME3D", two_nodes},   {"SAX1", two_nodes},     {"SAX2", three_nodes},
+    {"DSAX1", two_nodes},     {"DSAX2", three_nodes},  {"MAX1", two_nodes},
+    {"MAX2", three_nodes},    {"MGAX1", two_nodes},    {"MGAX2", three_nodes},
+    {"SFMAX1", two_nodes},    {"SFMAX2", three_nodes}, {"SFMGAX1", two_nodes},
+    {"SFMGAX2", three_nodes}, {"SPRINGA", two_nodes},  {"SPRING2", two_nodes},
+    {"SPRING1", one_node},    {"DASHPOTA", two_nodes}, {"DASHPOT2", two_nodes},
+    {"DASHPOT1", one_node},   {"GAPUNI", two_nodes},   {"GAPCYL", two_nodes},
+    {"GAPSPHER", two_nodes},  {"MASS", one_node},      {"ROTARYI", one_node},
+    {"HEATCAP", one_node},    {"PC3D", one_node},      {"PD3D", one_node},
+    {"DCOUP2D", one_node},    {"DCOUP3D", one_node},   {"JOINTC", two_nodes},
+    {"ITSUNI", two_nodes},    {"ITSCYL", two_nodes},   {"STRI65", {cell_type::quadratic_triangle, 6}},
 });
 
 /// Types that are written for cells.

@@ -45,31 +45,41 @@ void MeditMesh::add_other(std::string_view name) {
   }
 }
 
-std::optional<MeditMesh::Section> MeditMesh::cells_of_type(std::uint8_t type) const {
-  const auto found = std::ranges::find(sections_, type, &Section::type);
-  return found == sections_.end() ? std::nullopt : std::optional(*found);
+std::vector<std::size_t> MeditMesh::cells_of_type(std::uint8_t type) const {
+  std::vector<std::size_t> cells;
+  for (const Section& section : sections_) {
+    if (section.type == type) {
+      for (std::size_t cell = section.first; cell < section.first + section.count; ++cell) {
+        cells.push_back(cell);
+      }
+    }
+  }
+  return cells;
 }
 
 std::optional<MeditMesh::WrongNumber> MeditMesh::make_set(const Set& set) {
   NamedSet named{std::string(set.keyword->name), {}};
   NamedSet cells = named;  // of a set of cells these themselves
   const bool of_cells = set.keyword->role == MeditRole::cell_set;
-  Section section{0, 0, document.point_count()};
+  std::vector<std::size_t> numbered;
   if (of_cells) {
     const std::uint8_t type = set.keyword->cell_type;
-    const auto found = cells_of_type(type);
-    section = found ? *found : cells_of_type(quadratic_medit_type(type)).value_or(Section{type, 0, 0});
+    numbered = cells_of_type(type);
+    if (numbered.empty()) {
+      numbered = cells_of_type(quadratic_medit_type(type));
+    }
   }
+  const std::size_t count = of_cells ? numbered.size() : document.point_count();
   for (std::size_t i = 0; i < set.numbers.size(); ++i) {
     const std::int64_t number = set.numbers[i];
-    if (number < 1 || static_cast<std::uint64_t>(number) > section.count) {
-      return WrongNumber{&set, i, section.count, of_cells ? name_of_medit_cells(set.keyword->cell_type) : "vertices"};
+    if (number < 1 || static_cast<std::uint64_t>(number) > count) {
+      return WrongNumber{&set, i, count, of_cells ? name_of_medit_cells(set.keyword->cell_type) : "vertices"};
     }
     if (!of_cells) {
       named.members.push_back(static_cast<std::int32_t>(number - 1));
       continue;
     }
-    const std::size_t cell = section.first + static_cast<std::size_t>(number - 1);
+    const std::size_t cell = numbered[static_cast<std::size_t>(number - 1)];
     cells.members.push_back(static_cast<std::int32_t>(cell));
     const auto vertices = document.cells[cell];
     named.members.insert(named.members.end(), vertices.begin(), vertices.end());

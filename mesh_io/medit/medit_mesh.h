@@ -48,8 +48,11 @@ class MeditMesh {
   void set_dimension(std::size_t dimension);
   std::size_t dimension() const { return dimension_; }
 
-  /// False where there was a section of that keyword before.
-  bool begin_section(const MeditKeyword& keyword) { return begun_.insert(keyword.code).second; }
+  /// False where there was a section of that keyword before and may be one only. (meshio writes as many sections of
+  /// cells of a type as it has blocks of them.)
+  bool begin_section(const MeditKeyword& keyword) {
+    return begun_.insert(keyword.code).second || keyword.role == MeditRole::cells;
+  }
 
   /// Makes room for the vertices.
   void resize_vertices(std::size_t count);
@@ -71,7 +74,8 @@ class MeditMesh {
     std::size_t count;
   };
 
-  std::optional<Section> cells_of_type(std::uint8_t type) const;
+  /// The numbers of the cells of a type, in the order of the file.
+  std::vector<std::size_t> cells_of_type(std::uint8_t type) const;
   std::optional<WrongNumber> make_set(const Set& set);
 
   FileWorkers workers_;

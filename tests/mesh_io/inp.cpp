@@ -125,6 +125,14 @@ TEST_CASE("the middle node of a curve stands between its ends in the file, behin
   CHECK(says(inp.written(other), "*ELEMENT, TYPE=T3D3\n1, 1, 2, 3\n"));
 }
 
+TEST_CASE("B33H has two nodes, and three as meshio writes it") {
+  const MeshDocument document = inp.read("*NODE\n1,0,0\n2,1,0\n3,2,0\n*ELEMENT, TYPE=B33H\n1, 1, 3, 2\n2, 1, 3\n");
+  CHECK(vertices(document, 0) == std::vector<std::int32_t>{0, 2, 1});
+  CHECK(vertices(document, 1) == std::vector<std::int32_t>{0, 2});
+  REQUIRE(document.notes.size() == 1);
+  CHECK(says(document.notes[0], "'B33H'"));
+}
+
 TEST_CASE("elements of types that are not known keep their nodes, and a note says so") {
   const MeshDocument document = inp.read(
       "*USER ELEMENT, NODES=3, TYPE=U7\n1,2\n*NODE\n1,0,0\n2,1,0\n3,0,1\n*ELEMENT, TYPE=XYZ\n1, 1, 2,\n3\n2, 3\n"

@@ -82,7 +82,10 @@ TEST_CASE("Medit: the mesh is the same however the file is laid out") {
       replace_all(text, "MeshVersionFormatted 2", "meshversionformatted 4"),
       // As FreeFem and BAMG write it, and others.
       replace_all(text, "\nEdges", "\nIdentifier\n\"Triangles 3 of a mesh\"\nGeometry \"a.gref\"\n\nEdges"),
-      replace_all(text, "\nVertices", "\nAngleOfCornerBound 46\nVertices"));
+      replace_all(text, "\nVertices", "\nAngleOfCornerBound 46\nVertices"),
+      // As meshio writes it.
+      replace_all(replace_all(text, "Edges\n3\n1 2 10\n", "Edges\n1\n1 2 10\nEdges\n2\n"), "Triangles\n2\n1 2 3 7\n",
+                  "Triangles\n1\n1 2 3 7\nTriangles\n1\n"));
   CAPTURE(laid_out);
   const MeshDocument document = as_medit(laid_out);
   const MeshDocument expected = as_medit(medit_plate);
@@ -143,7 +146,7 @@ TEST_CASE("Medit: what breaks the rules is refused with the line and the reason"
             "mesh:24: expected a vertex number, got '7'; the file has 6 vertices, counted from 1"},
            {"1 3 4 8", "0 3 4 8", "mesh:24: expected a vertex number, got '0'"},
            {"Triangles\n2", "Triangles\n1", "mesh:24: expected a keyword after the declared 1 of Triangles, got '1'"},
-           {"Quadrilaterals", "Triangles", "mesh:26: a second Triangles"},
+           {"Quadrilaterals\n1\n2 5 6 3 0", "Corners\n1\n2", "mesh:30: a second Corners"},
            {"Quadrilaterals", "Polygons", "mesh:26: Polygons are not read"},
            {"Corners\n2\n1\n6", "Corners\n2\n1\n7",
             "mesh:33: Corners: expected a number from 1 to that of the vertices, 6, got '7'"},
