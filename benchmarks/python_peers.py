@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Smoothing planar triangle meshes from Python: what there is, and trismooth.
+"""Smoothing planar finite element meshes from Python: what there is, and trismooth.
 
     python benchmarks/python_peers.py [--meshes random holes machine inverted coast farfield]
                                       [--times 100000 1000000] [--runs 5] [--peers TEXT ...]

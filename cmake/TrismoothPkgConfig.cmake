@@ -30,8 +30,8 @@ endfunction()
 
 # The flag is that of trismooth_carry_exact_arithmetic().
 trismooth_pkg_config(base "Points, arrays as views and errors of trismooth" FLAGS -ffp-contract=off INSIDE_REQUIRES tbb)
-trismooth_pkg_config(quality "Quality of planar triangle meshes" REQUIRES trismooth-base)
-trismooth_pkg_config(smoothing "Smart Laplacian smoothing of planar triangle meshes" REQUIRES trismooth-quality)
+trismooth_pkg_config(quality "Quality of planar finite element meshes" REQUIRES trismooth-base)
+trismooth_pkg_config(smoothing "Smart Laplacian smoothing of planar finite element meshes" REQUIRES trismooth-quality)
 if(TRISMOOTH_MESH_IO)
   set(requires zlib)
   set(libraries)

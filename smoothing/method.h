@@ -28,10 +28,10 @@ struct EnumText<Method> {
       {Method::mean_ratio, "mean-ratio"},
   });
   static constexpr std::array<std::string_view, texts.size()> meanings{
-      "to the mean of the neighbours, where the worst triangle around gets better",
+      "to the mean of the neighbours, where the worst element around gets better",
       "always",
       "towards the mean by edge length, as smart",
-      "where an energy of all triangles around is smaller, for the best elements",
+      "where an energy of all elements around is smaller, for the best elements",
   };
 };
 

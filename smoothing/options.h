@@ -154,10 +154,10 @@ struct EnumText<Evaluation> {
 
 /// What steers Method::mean_ratio alone.
 struct MeanRatioOptions {
-  /// How much the sizes of triangles count beside their shapes, from 0. Without target_lengths it is multiplied by the
+  /// How much the sizes of elements count beside their shapes, from 0. Without target_lengths it is multiplied by the
   /// fifth power of the mesh's mean shape: the sizes of a distorted mesh say little.
   double size_weight = 1;
-  /// The power of 1 / shape in the energy, up to 8: the higher, the more the worst triangles count. 0: 3 where the
+  /// The power of 1 / shape in the energy, up to 8: the higher, the more the worst elements count. 0: 3 where the
   /// mesh's mean shape is 0.8 or more, else 2.
   int power = 0;
   TargetShape target = TargetShape::uniform;
@@ -214,7 +214,7 @@ struct SmoothingOptions {
   /// between sweeps and before the first one. A plan() has no limit, nor what its first smooth() makes ready for later
   /// ones.
   double time_limit_seconds = std::numeric_limits<double>::infinity();
-  std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all triangles reaches this
+  std::optional<double> target_quality{};  ///< stop as soon as the smallest shape of all elements reaches this
   int threads = 0;                ///< 0: one for each core; most_threads() at most. The result does not depend on it
   bool record_min_shape = false;  ///< fill SweepRecord::min_shape; costs a pass over the mesh after every sweep
   /// Called for every sweep in order, from the thread that called; `stop` ends the smoothing with a valid mesh, as that

@@ -36,9 +36,9 @@ namespace trismooth {
 namespace {
 
 constexpr const char* description =
-    "trismooth improves planar triangle meshes for finite elements by Smart Laplacian smoothing and others. Boundaries "
-    "and material interfaces stay where they are, no element gets worse than the worst one touched, and everything "
-    "else in the file stays as it is.";
+    "trismooth improves planar meshes of triangles and quadrilaterals for finite elements by Smart Laplacian smoothing "
+    "and others. Boundaries and material interfaces stay where they are, no element gets worse than the worst one "
+    "touched, and everything else in the file stays as it is.";
 
 constexpr const char* help_footer =
     "Examples:\n"

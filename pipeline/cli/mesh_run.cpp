@@ -398,7 +398,7 @@ void add_hold_options(CLI::App& command, MeshRunSettings& settings) {
                     })
       ->excludes(ids)
       ->group(option_group::constraints);
-  add_enum_option(command, "--quads", options.quads, "Quadrilaterals: smooth them as triangles, or hold their vertices")
+  add_enum_option(command, "--quads", options.quads, "Quadrilaterals: smooth them as well, or hold their vertices")
       ->group(option_group::constraints);
 }
 

@@ -60,7 +60,7 @@ void add_algorithm_options(CLI::App& command, SmoothSettings& settings) {
 void add_mean_ratio_options(CLI::App& command, PipelineOptions& pipeline) {
   add_target_options(command, pipeline.smoothing.mean_ratio, "1", "3 where the mean shape is 0.8 or more, else 2");
   add_parsed_option(command, "--size-array", "NAME",
-                    "Array of the sizes to aim at, in place of those that triangles have: edge lengths at points, or "
+                    "Array of the sizes to aim at, in place of those that elements have: edge lengths at points, or "
                     "areas of cells; only their relations count [none]",
                     [&pipeline](const std::string& text) { pipeline.size_array = text; })
       ->group(option_group::mean_ratio);

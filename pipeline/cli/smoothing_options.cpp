@@ -12,7 +12,7 @@ namespace trismooth {
 
 void add_layers_option(CLI::App& command, SmoothingOptions& options, const std::string& kept) {
   add_enum_option(command, "--layers", options.layers,
-                  "Layers of flat triangles with angles near 90 degrees, at walls and in thin insulation. auto: " +
+                  "Layers of flat elements with angles near 90 degrees, at walls and in thin insulation. auto: " +
                       kept + "; keep: all that is flat in one direction is; smooth: moved as all others")
       ->group(option_group::smoothing);
 }
@@ -21,12 +21,12 @@ void add_target_options(CLI::App& command, MeanRatioOptions& options, const std:
                         const std::string& usual_power) {
   add_parsed_option(
       command, "--size-weight", "X",
-      "How much the sizes of triangles count beside their shapes; 0: not at all [" + usual_size_weight + "]",
+      "How much the sizes of elements count beside their shapes; 0: not at all [" + usual_size_weight + "]",
       [&options](const std::string& text) { options.size_weight = parse_finite(text, 0); })
       ->group(option_group::mean_ratio);
   add_parsed_option(
       command, "--power", "P",
-      "Of 1/shape in the energy, 1 to 8; the higher, the more the worst triangles count [" + usual_power + "]",
+      "Of 1/shape in the energy, 1 to 8; the higher, the more the worst elements count [" + usual_power + "]",
       [&options](const std::string& text) { options.power = static_cast<int>(parse_integer(text, 1, 8)); })
       ->group(option_group::mean_ratio);
   add_enum_option(command, "--target", options.target,
@@ -43,7 +43,7 @@ void add_stop_options(CLI::App& command, SmoothingOptions& options) {
                     "Stop when no vertex moves by more than X of its edge length; 0: only when none moves [1e-6]",
                     [&options](const std::string& text) { options.tolerance = parse_finite(text, 0); })
       ->group(option_group::stopping);
-  add_parsed_option(command, "--target-quality", "X", "Stop when the smallest shape of all triangles reaches X [none]",
+  add_parsed_option(command, "--target-quality", "X", "Stop when the smallest shape of all elements reaches X [none]",
                     [&options](const std::string& text) { options.target_quality = parse_finite(text); })
       ->group(option_group::stopping);
 }

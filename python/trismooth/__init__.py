@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Smoothing of planar triangle meshes for finite elements, on the CPU and on NVIDIA GPUs.
+"""Smoothing of planar finite element meshes, on the CPU and on NVIDIA GPUs.
 
 The same bits on every backend, and never worse than the input:
 

@@ -239,7 +239,7 @@ class SweepDriver {
     return options_.target_quality && min_shape(smallest_quotient(points), fixed_quotient) >= *options_.target_quality;
   }
 
-  /// The smallest shape of all triangles. `smallest`: as smallest_quotient().
+  /// The smallest shape of all elements. `smallest`: as smallest_quotient().
   double min_shape(T smallest, double fixed_quotient) const {
     return min_shape_of(least_of_parts(halo_, static_cast<double>(smallest)), fixed_quotient);
   }

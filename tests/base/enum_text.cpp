@@ -53,7 +53,7 @@ TEST_CASE("the texts are those of the command line and the JSON report") {
 TEST_CASE("the values of an enumeration are those of its texts, and help says what each stands for") {
   CHECK(trismooth::values_of<trismooth::Form>() == std::array{trismooth::Form::swap, trismooth::Form::in_place});
   const std::string help = trismooth::explained_texts<trismooth::Method>();
-  CHECK(help.starts_with("smart: to the mean of the neighbours, where the worst triangle around gets better; "));
+  CHECK(help.starts_with("smart: to the mean of the neighbours, where the worst element around gets better; "));
   CHECK(help.find("; laplacian: always; weighted: ") != std::string::npos);
   CHECK_FALSE(help.ends_with("; "));
 }

@@ -96,7 +96,7 @@ struct Prepared {
   }
 };
 
-/// Nothing for what is no planar triangle mesh.
+/// Nothing for what is no planar mesh.
 std::optional<Prepared> prepare(const MeshDocument& document) {
   Prepared prepared;
   try {
