@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -356,35 +357,36 @@ class PieceMesh final : public StagedMesh {
     }
   }
 
-  TriangleView view_of(const LocalPoints& points) const {
-    return {points.points, topology_->overlap().elements().triangles(), reversed_, points.frame.exponent};
+  MeshView view_of(const LocalPoints& points) const {
+    return {points.points, topology_->overlap().elements(), reversed_, points.frame.exponent};
   }
 
   /// note_growth_bound() of the whole mesh. Each of the free corners is judged by the rank that owns it.
   void note_growth_bound(const LocalPoints& before) {
     const QualityReport& report = run_.result.before;
-    if (!may_have_growth_note(run_.options.smoothing, report) || !topology_->overlap().elements().are_triangles()) {
+    if (!may_have_growth_note(run_.options.smoothing, report)) {
       return;
     }
     const mpi::AscendingIds& ids = topology_->overlap().triangle_ids;
-    const TriangleView now = view_of(local_);
-    WorstTriangle worst = worst_with_free_corner(now, held_, [this](std::size_t t) { return topology_->counts(t); });
-    worst.triangle = worst.triangle < 0 ? worst.triangle : ids[static_cast<std::size_t>(worst.triangle)];
-    for (const WorstTriangle& other : ranks_->of_all(std::vector{worst})) {
-      worst = std::tie(other.quotient, other.triangle) < std::tie(worst.quotient, worst.triangle) ? other : worst;
+    const MeshView now = view_of(local_);
+    WorstFreeElement worst = worst_with_free_corner(now, held_, [this](std::size_t t) { return topology_->counts(t); });
+    worst.element = worst.element < 0 ? worst.element : ids[static_cast<std::size_t>(worst.element)];
+    for (const WorstFreeElement& other : ranks_->of_all(std::vector{worst})) {
+      worst = std::tie(other.quotient, other.element) < std::tie(worst.quotient, worst.element) ? other : worst;
     }
-    if (worst.triangle < 0) {
+    if (worst.element < 0) {
       return;
     }
     const std::int64_t cell =
-        ranks_->sum(number_of_triangle(files_, cells_.first, topology_->local_triangle(worst.triangle)));
+        ranks_->sum(number_of_triangle(files_, cells_.first, topology_->local_triangle(worst.element)));
     std::size_t place = 0;
-    for (auto id = ids.begin(); id != ids.end() && *id != worst.triangle; ++id) {
+    for (auto id = ids.begin(); id != ids.end() && *id != worst.element; ++id) {
       ++place;
     }
     std::set<std::string> said;  // by the corners, in their order
-    for (std::size_t corner = 0; corner < 3 && place < ids.size(); ++corner) {
-      const std::int32_t v = now.elements[place][corner];
+    const auto corners = place < ids.size() ? now.elements[place] : std::span<const std::int32_t>();
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+      const std::int32_t v = corners[corner];
       if (topology_->overlap().is_own(v) && held_[static_cast<std::size_t>(v)] == 0) {
         const std::string note = growth_note(view_of(before), now, v, report, worst.quotient, cell,
                                              topology_->overlap().ids[static_cast<std::size_t>(v)]);

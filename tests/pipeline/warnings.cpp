@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <regex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_file.h"
@@ -13,6 +17,8 @@
 #include "trismooth/pipeline/pipeline.h"
 
 #include "catch.h"
+#include "support/mixed_document.h"
+#include "support/mixed_meshes.h"
 #include "support/says.h"
 #include "support/scratch_folder.h"
 
@@ -86,30 +92,123 @@ TEST_CASE("sizes so far from those of the mesh that nothing moves are told") {
   CHECK(is_warned(result));
 }
 
-TEST_CASE("the growth bound is named where it keeps the worst element from what smart does for it, and only there") {
-  std::size_t told = 0;
-  for (const auto boundary : {trismooth::GeneratedBoundary::random, trismooth::GeneratedBoundary::resolved}) {
-    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-      CAPTURE(seed, boundary);
-      trismooth::MeshDocument document = document_of(trismooth::random_delaunay_mesh(200, seed, {boundary}));
-      PipelineOptions options;
-      options.smoothing.method = Method::mean_ratio;
-      const PipelineResult result = smooth_document(document, options);
-      const bool is_told = std::ranges::any_of(result.notes, [](const std::string& note) {
-        return note.starts_with("the growth bound of mean-ratio keeps");
-      });
-      told += is_told ? 1 : 0;
-      if (is_told) {
-        // What is said there can be had.
-        options.smoothing.method = Method::smart;
-        options.smoothing.max_sweeps = 1;
-        const PipelineResult smart = smooth_document(document, options);
-        CHECK(smart.smoothing->moved_vertices > 0);
+/// Some of the triangles joined to quadrilaterals, where two of them make a convex one.
+std::vector<mixed_meshes::Element> some_joined(const RandomMesh& mesh) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> by_side;  // those that are alone still
+  std::vector<mixed_meshes::Element> elements;
+  const auto turns_left = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    const auto at = [&](std::int32_t v) { return mesh.points[static_cast<std::size_t>(v)]; };
+    return cross(at(b) - at(a), at(c) - at(b)) > 0;
+  };
+  for (const auto& corners : mesh.triangles) {
+    bool is_joined = false;
+    for (std::size_t i = 0; i < 3 && !is_joined; ++i) {
+      const std::int32_t a = corners[i];
+      const std::int32_t b = corners[(i + 1) % 3];
+      const std::int32_t c = corners[(i + 2) % 3];
+      const auto found = by_side.find({b, a});
+      if (found == by_side.end() || elements[found->second][3] >= 0) {
+        continue;
       }
-      CHECK((!is_told || boundary == trismooth::GeneratedBoundary::random));
+      const mixed_meshes::Element other = elements[found->second];
+      const std::int32_t d = other[0] + other[1] + other[2] - a - b;
+      if (turns_left(c, a, d) && turns_left(a, d, b) && turns_left(d, b, c) && turns_left(b, c, a)) {
+        elements[found->second] = {c, a, d, b};
+        is_joined = true;
+      }
+    }
+    for (std::size_t i = 0; i < 3 && !is_joined; ++i) {
+      by_side[{corners[i], corners[(i + 1) % 3]}] = elements.size();
+    }
+    if (!is_joined) {
+      elements.push_back({corners[0], corners[1], corners[2], -1});
     }
   }
-  CHECK(told > 0);
+  return elements;
+}
+
+/// Whether what a note of the growth bound says of that mesh is so, by the definitions: which cell, of which shape, and
+/// what would become of the elements around the vertex in the mean of its neighbours.
+void check_growth_note(const std::string& note, const mixed_meshes::MixedMesh& mesh, std::vector<double> xy) {
+  const std::regex form(".* of shape ([0-9.e-]+) in cell ([0-9]+): vertex ([0-9]+) .* would have ([0-9.e-]+), .*");
+  std::smatch said;
+  REQUIRE(std::regex_match(note, said, form));
+  CHECK(mixed_meshes::shape_by_definition(mesh, std::stoul(said[2]), xy) == Approx(std::stod(said[1])).epsilon(0.01));
+  const auto vertex = std::stoul(said[3]);
+  std::set<std::size_t> neighbours;
+  std::vector<std::size_t> around;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const std::vector<std::int32_t> corners = mesh.corners(e);
+    const std::size_t count = corners.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (corners[i] == static_cast<std::int32_t>(vertex)) {
+        around.push_back(e);
+        neighbours.insert({static_cast<std::size_t>(corners[(i + 1) % count]),
+                           static_cast<std::size_t>(corners[(i + count - 1) % count])});
+      }
+    }
+  }
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    double sum = 0;
+    for (const std::size_t v : neighbours) {
+      sum += xy[2 * v + axis];
+    }
+    xy[2 * vertex + axis] = sum / static_cast<double>(neighbours.size());
+  }
+  double smallest = 1;
+  for (const std::size_t e : around) {
+    smallest = std::min(smallest, mixed_meshes::shape_by_definition(mesh, e, xy));
+  }
+  CHECK(smallest == Approx(std::stod(said[4])).epsilon(0.01));
+}
+
+TEST_CASE("the growth bound is named where it keeps the worst element from what smart does for it, and only there") {
+  for (const bool joins : {false, true}) {
+    std::size_t told = 0;
+    std::size_t of_quadrilaterals = 0;
+    for (const auto boundary : {trismooth::GeneratedBoundary::random, trismooth::GeneratedBoundary::resolved}) {
+      for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        CAPTURE(seed, boundary, joins);
+        const RandomMesh random = trismooth::random_delaunay_mesh(200, seed, {boundary});
+        trismooth::MeshDocument document = document_of(random);
+        mixed_meshes::MixedMesh mesh;
+        if (joins) {
+          mesh.elements = some_joined(random);
+          for (const auto& [x, y] : random.points) {
+            mesh.points.push_back({x, y});
+          }
+          document = document_of(mesh);
+        }
+        PipelineOptions options;
+        options.smoothing.method = Method::mean_ratio;
+        const PipelineResult result = smooth_document(document, options);
+        const auto note = std::ranges::find_if(result.notes, [](const std::string& sentence) {
+          return sentence.starts_with("the growth bound of mean-ratio keeps");
+        });
+        const bool is_told = note != result.notes.end();
+        told += is_told ? 1 : 0;
+        if (is_told && joins) {
+          std::vector<double> xy;
+          for (std::size_t v = 0; v < document.point_count(); ++v) {
+            xy.insert(xy.end(), {document.points[3 * v], document.points[3 * v + 1]});
+          }
+          check_growth_note(*note, mesh, xy);
+          const std::string cell = note->substr(note->find("in cell ") + 8);
+          of_quadrilaterals += mesh.is_triangle(std::stoul(cell)) ? 0 : 1;
+        }
+        if (is_told) {
+          // What is said there can be had.
+          options.smoothing.method = Method::smart;
+          options.smoothing.max_sweeps = 1;
+          const PipelineResult smart = smooth_document(document, options);
+          CHECK(smart.smoothing->moved_vertices > 0);
+        }
+        CHECK((!is_told || boundary == trismooth::GeneratedBoundary::random));
+      }
+    }
+    CHECK(told > 0);
+    CHECK((of_quadrilaterals > 0) == joins);
+  }
 }
 
 TEST_CASE("sizes are compared where corners slide, too") {
