@@ -136,10 +136,81 @@ class OwnElements {
   [[nodiscard]] ElementList list() const {
     return std::visit([](const auto& listed) { return ElementList(listed); }, listed_);
   }
+  /// Makes these its own: a copy, where they are not yet. Complexity: linear, or constant.
+  void keep(const ElementList& elements) {
+    const bool are_own = elements.are_triangles() == list().are_triangles() &&
+                         elements.visit([this]<class Corners>(std::span<const Corners> listed) {
+                           return list().template as<Corners>().data() == listed.data();
+                         });
+    if (!are_own) {
+      *this = OwnElements(elements);
+    }
+  }
+
+  /// Has memory for so many.
+  void reserve(std::size_t count) {
+    std::visit([count](auto& listed) { listed.reserve(count); }, listed_);
+  }
+  /// Lists one more element of either kind. They are listed as Triangle until the first quadrilateral comes.
+  /// Complexity: constant on the average; once linear.
+  void append(const MixedElement& element);
+  /// A triangle.
+  void append(const Triangle& triangle);
 
  private:
   std::variant<std::vector<Triangle>, std::vector<MixedElement>> listed_;
 };
+
+/// The elements listed as Corners: those that are there where they are, else a copy in `converted`, which keeps it.
+/// What `converted` had may be what is copied. Listed as Triangle, none may be a quadrilateral. Complexity: constant,
+/// or linear.
+template <class Corners>
+std::span<const Corners> listed_as(const ElementList& elements, OwnElements& converted) {
+  return elements.visit([&]<class Listed>(std::span<const Listed> listed) -> std::span<const Corners> {
+    if constexpr (std::same_as<Listed, Corners>) {
+      return listed;
+    } else {
+      std::vector<Corners> all(listed.size());
+      std::ranges::transform(listed, all.begin(), [](const Listed& element) {
+        Corners corners{};
+        corners.back() = no_corner;
+        std::copy_n(element.begin(), 3, corners.begin());
+        return corners;
+      });
+      converted = OwnElements(std::move(all));
+      return converted.list().template as<Corners>();
+    }
+  });
+}
+
+/// The elements listed as Triangle where all of them are triangles, else as they are. `converted` as above. Complexity:
+/// constant, or linear.
+inline ElementList as_triangles_where_all_are(const ElementList& elements, OwnElements& converted) {
+  return elements.are_triangles() || elements.count_quadrilaterals() > 0
+             ? elements
+             : ElementList(listed_as<Triangle>(elements, converted));
+}
+
+inline void OwnElements::append(const MixedElement& element) {
+  if (auto* const triangles = std::get_if<std::vector<Triangle>>(&listed_)) {
+    if (element[3] == no_corner) {
+      triangles->push_back({element[0], element[1], element[2]});
+      return;
+    }
+    const std::size_t capacity = triangles->capacity();
+    listed_as<MixedElement>(list(), *this);
+    reserve(capacity);
+  }
+  std::get<std::vector<MixedElement>>(listed_).push_back(element);
+}
+
+inline void OwnElements::append(const Triangle& triangle) {
+  if (auto* const triangles = std::get_if<std::vector<Triangle>>(&listed_)) {
+    triangles->push_back(triangle);
+  } else {
+    std::get<std::vector<MixedElement>>(listed_).push_back(as_mixed(triangle));
+  }
+}
 
 /// The corner behind corner i of an element, in turn.
 inline std::int32_t next_corner(std::span<const std::int32_t> corners, std::size_t i) {

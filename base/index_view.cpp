@@ -48,42 +48,32 @@ void IndexView::convert(std::int64_t vertex_count, std::vector<Corners>& convert
 }
 
 template <class Corners>
-std::span<const Corners> IndexView::listed(std::int64_t vertex_count, std::vector<Corners>& converted) const {
+ElementList IndexView::listed(std::int64_t vertex_count, OwnElements& converted) const {
   static_assert(sizeof(Corners) == std::tuple_size_v<Corners> * sizeof(std::int32_t));
   const bool is_as_it_is = !is_wide_ && is_signed_ && element_stride_ == sizeof(Corners) &&
                            corner_stride_ == sizeof(std::int32_t) &&
                            reinterpret_cast<std::uintptr_t>(first_) % alignof(Corners) == 0;
   if (is_as_it_is) {
-    return {reinterpret_cast<const Corners*>(first_), size_};
+    return std::span(reinterpret_cast<const Corners*>(first_), size_);
   }
+  std::vector<Corners> all;
   if (is_wide_) {
-    is_signed_ ? convert<std::int64_t>(vertex_count, converted) : convert<std::uint64_t>(vertex_count, converted);
+    is_signed_ ? convert<std::int64_t>(vertex_count, all) : convert<std::uint64_t>(vertex_count, all);
   } else {
-    is_signed_ ? convert<std::int32_t>(vertex_count, converted) : convert<std::uint32_t>(vertex_count, converted);
+    is_signed_ ? convert<std::int32_t>(vertex_count, all) : convert<std::uint32_t>(vertex_count, all);
   }
-  return converted;
+  converted = std::move(all);
+  return converted.list();
 }
 
-std::span<const Triangle> IndexView::triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const {
-  if (columns_ != 3) {
-    throw std::invalid_argument(
-        "triangles: four vertex numbers each, expected three (quadrilaterals are for quality(), smooth() and plans)");
-  }
-  return listed(vertex_count, converted);
-}
-
-std::span<const MixedElement> IndexView::elements(std::int64_t vertex_count,
-                                                  std::vector<MixedElement>& converted) const {
-  if (columns_ != 4) {
-    throw std::invalid_argument("elements: three vertex numbers each, expected four");
-  }
-  return listed(vertex_count, converted);
+ElementList IndexView::list(std::int64_t vertex_count, OwnElements& converted) const {
+  return columns_ == 3 ? listed<Triangle>(vertex_count, converted) : listed<MixedElement>(vertex_count, converted);
 }
 
 OwnElements own_elements(const IndexView& indices, std::int64_t vertex_count) {
-  return with_elements(indices, vertex_count, [](const auto& listed, auto& converted) {
-    return listed.data() == converted.data() ? OwnElements(std::move(converted)) : OwnElements(ElementList(listed));
-  });
+  OwnElements own;
+  own.keep(indices.list(vertex_count, own));
+  return own;
 }
 
 }  // namespace trismooth

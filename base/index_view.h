@@ -84,22 +84,16 @@ class IndexView {
   /// Whether there are four numbers of each, so that some may be quadrilaterals.
   [[nodiscard]] bool may_have_quadrilaterals() const { return columns_ == 4; }
 
-  /// The triangles as the library holds them: the caller's own memory where it has that form, else converted into
-  /// `converted`. Throws MeshError for a number that is not one of the vertices and has no place in 32 bits; of all
-  /// others it is found later; std::invalid_argument where there are four numbers of each. Complexity: constant or
-  /// linear.
-  [[nodiscard]] std::span<const Triangle> triangles(std::int64_t vertex_count, std::vector<Triangle>& converted) const;
-
-  /// Where there are four numbers of each: the elements as the library holds them, the caller's own memory or
-  /// `converted`. Throws MeshError as triangles() does. Complexity: constant or linear.
-  [[nodiscard]] std::span<const MixedElement> elements(std::int64_t vertex_count,
-                                                       std::vector<MixedElement>& converted) const;
+  /// The elements as the library holds them, listed by as many numbers as here: the caller's own memory where it has
+  /// that form, else converted into `converted`, which keeps them. Throws MeshError for a number that is not one of the
+  /// vertices and has no place in 32 bits; of all others it is found later. Complexity: constant or linear.
+  [[nodiscard]] ElementList list(std::int64_t vertex_count, OwnElements& converted) const;
 
  private:
   static void require_whole_triangles(std::size_t numbers);
   void check() const;
   template <class Corners>
-  std::span<const Corners> listed(std::int64_t vertex_count, std::vector<Corners>& converted) const;
+  ElementList listed(std::int64_t vertex_count, OwnElements& converted) const;
   template <class T, class Corners>
   void convert(std::int64_t vertex_count, std::vector<Corners>& converted) const;
 
@@ -112,19 +106,7 @@ class IndexView {
   bool is_signed_;
 };
 
-/// What body(elements, converted) returns, called with IndexView::triangles(), or where there are four numbers of each
-/// with IndexView::elements(), and with what they may be in: the vector is the body's to keep. Throws as these do.
-template <class Body>
-auto with_elements(const IndexView& indices, std::int64_t vertex_count, const Body& body) {
-  if (indices.may_have_quadrilaterals()) {
-    std::vector<MixedElement> converted;
-    return body(indices.elements(vertex_count, converted), converted);
-  }
-  std::vector<Triangle> converted;
-  return body(indices.triangles(vertex_count, converted), converted);
-}
-
-/// A copy of the elements. Throws as with_elements(). Complexity: linear.
+/// A copy of the elements. Throws as IndexView::list(). Complexity: linear.
 OwnElements own_elements(const IndexView& indices, std::int64_t vertex_count);
 
 /// An Eigen matrix of indices with an element a row (libigl's F), where its type does not tell (MatrixXi). Throws

@@ -134,8 +134,10 @@ std::vector<RepeatedTriangle> find_repeated(std::span<const Corners> triangles, 
 }  // namespace
 
 std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, Workers& workers) {
-  return with_elements(triangles, std::numeric_limits<std::int32_t>::max(),
-                       [&](const auto& listed, const auto& /*converted*/) { return find_repeated(listed, workers); });
+  OwnElements converted;
+  return triangles.list(std::numeric_limits<std::int32_t>::max(), converted).visit([&](const auto& listed) {
+    return find_repeated(listed, workers);
+  });
 }
 
 std::vector<RepeatedTriangle> find_repeated_triangles(const IndexView& triangles, int threads) {

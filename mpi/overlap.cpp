@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <string>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 
 #include "trismooth/base/hold.h"
@@ -34,26 +33,6 @@ struct SentVertex {
   std::int64_t id;
   std::uint8_t named;
 };
-
-/// `elements`, all of them as Corners; `converted` has them where they are listed otherwise. As triangles: none is a
-/// quadrilateral.
-template <class Corners>
-std::span<const Corners> all_as(const ElementList& elements, std::vector<Corners>& converted) {
-  return elements.visit([&]<class Listed>(std::span<const Listed> listed) -> std::span<const Corners> {
-    if constexpr (std::is_same_v<Listed, Corners>) {
-      return listed;
-    } else {
-      converted.resize(listed.size());
-      std::ranges::transform(listed, converted.begin(), [](const Listed& element) {
-        Corners corners{};
-        corners.back() = no_corner;
-        std::copy_n(element.begin(), 3, corners.begin());
-        return corners;
-      });
-      return converted;
-    }
-  });
-}
 
 template <class Corners>
 class OverlapBuilder {
@@ -370,17 +349,6 @@ class OverlapBuilder {
 
 }  // namespace
 
-ElementList elements_of(const LocalMesh& mesh, OwnElements& converted) {
-  const std::int64_t vertices = std::ssize(mesh.vertex_ids);
-  return with_elements(mesh.triangles, vertices, [&](const auto& listed, auto& own) {
-    if (listed.data() != own.data()) {
-      return ElementList(listed);
-    }
-    converted = std::move(own);
-    return converted.list();
-  });
-}
-
 bool has_quadrilaterals(const ElementList& elements, const Communicator& ranks) {
   const auto is_quadrilateral = [](const auto& corners) { return corner_count(corners) == 4; };
   return ranks.any(elements.visit([&](const auto& listed) { return std::ranges::any_of(listed, is_quadrilateral); }));
@@ -396,12 +364,13 @@ Overlap build_overlap(const LocalMesh& mesh, const ElementList& elements, const 
                       bool is_gathered, std::shared_ptr<const Communicator> communicator, Workers& workers) {
   const Communicator& ranks = *communicator;
   ranks.on_all([&] { check_local_mesh(mesh, elements, constraints, ranks.size()); });
-  const auto built = [&]<class Corners>(std::vector<Corners> converted) {
-    std::span<const Corners> listed;
-    ranks.on_all([&] { listed = all_as(elements, converted); });
+  OwnElements converted;
+  const auto built = [&]<class Corners>(std::span<const Corners> listed) {
+    ranks.on_all([&] { listed = listed_as<Corners>(elements, converted); });
     return OverlapBuilder(mesh, listed, constraints, is_gathered, std::move(communicator), workers).run();
   };
-  return has_quadrilaterals(elements, ranks) ? built(std::vector<MixedElement>()) : built(std::vector<Triangle>());
+  return has_quadrilaterals(elements, ranks) ? built(std::span<const MixedElement>())
+                                             : built(std::span<const Triangle>());
 }
 
 Overlap build_overlap(const LocalMesh& mesh, const Constraints& constraints, bool is_gathered,
@@ -411,7 +380,7 @@ Overlap build_overlap(const LocalMesh& mesh, const Constraints& constraints, boo
   std::optional<Workers> workers;
   communicator->on_all([&] {
     workers.emplace(threads);
-    elements = elements_of(mesh, converted);
+    elements = mesh.triangles.list(std::ssize(mesh.vertex_ids), converted);
   });
   return build_overlap(mesh, elements, constraints, is_gathered, communicator, *workers);
 }

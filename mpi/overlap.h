@@ -25,10 +25,6 @@ class Workers;
 
 namespace trismooth::mpi {
 
-/// The elements that a rank hands in, as the library holds them: the caller's own memory where it has that form, else
-/// `converted`. Local. Throws MeshError as IndexView::triangles() does. Complexity: constant or linear.
-ElementList elements_of(const LocalMesh& mesh, OwnElements& converted);
-
 /// The vertices that a rank owns, with all of their elements and these elements' other vertices, its ghosts: one layer,
 /// which is what updates of own vertices need. Vertices are numbered in the order of their ids, elements in that of
 /// theirs; so all that depends on the order of numbers in the whole mesh is found from those here.

@@ -86,7 +86,7 @@ std::unique_ptr<OverlapSmoother> make_overlap_smoother(std::shared_ptr<const Com
   std::optional<Workers> workers;
   communicator->on_all([&] {
     workers.emplace(agreed.threads);
-    elements = elements_of(mesh, converted);
+    elements = mesh.triangles.list(std::ssize(mesh.vertex_ids), converted);
   });
   std::string note;
   if (const Backend& backend = backend_of(agreed);

@@ -126,7 +126,8 @@ QualityReport quality(const ConstPointView& points, const IndexView& triangles, 
   Workers workers(options.threads);
   const auto vertex_count = static_cast<std::int64_t>(points.size());
   require_mesh_size(vertex_count, triangles);
-  return with_elements(triangles, vertex_count, [&](const auto& listed, const auto& /*converted*/) {
+  OwnElements converted;
+  return triangles.list(vertex_count, converted).visit([&](const auto& listed) {
     return report_of(listed, connect_triangles(static_cast<std::int32_t>(vertex_count), listed, workers), points,
                      values, options, workers);
   });

@@ -153,7 +153,8 @@ KeptMoves keep_never_worse(const ConstPointView& before, const PointView& after,
   const auto vertex_count = static_cast<std::int64_t>(before.size());
   check_mesh_size(vertex_count, static_cast<std::int64_t>(triangles.size()),
                   triangles.may_have_quadrilaterals() ? 4 : 3);
-  return with_elements(triangles, vertex_count, [&](const auto& listed, const auto& /*converted*/) {
+  OwnElements converted;
+  return triangles.list(vertex_count, converted).visit([&](const auto& listed) {
     return kept_moves(before, after, listed, constraints, options, workers);
   });
 }

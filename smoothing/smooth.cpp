@@ -12,11 +12,9 @@
 #include "trismooth/base/heights.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/call_limit.h"
-#include "trismooth/base/machine/release.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/moved_from.h"
-#include "trismooth/base/triangles_alone.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/invalid_triangles.h"
@@ -32,24 +30,13 @@ class SmoothingPlan::Implementation {
       : options_(checked(options)), workers_(options.threads) {
     check_mesh_size(vertex_count, static_cast<std::int64_t>(indices.size()), indices.may_have_quadrilaterals() ? 4 : 3);
     vertex_count_ = static_cast<std::int32_t>(vertex_count);
-    if (indices.may_have_quadrilaterals()) {
-      const std::span<const MixedElement> elements = indices.elements(vertex_count, mixed_);
-      if (auto triangles = triangles_alone(elements)) {
-        triangles_ = *std::move(triangles);
-        release(mixed_);
-      } else {
-        keep(elements, mixed_);
-        note_ = host_finds_quadrilaterals(options);
-        mesh_.emplace(vertex_count_, std::span<const MixedElement>(mixed_), constraints, workers_);
-        return;
-      }
-    }
-    const std::span<const Triangle> listed =
-        indices.may_have_quadrilaterals() ? triangles_ : indices.triangles(vertex_count, triangles_);
-    // A device does not know of named lines.
-    if (options.prefers_topology_of_device() && !constraints.slide.names_vertices()) {
+    const ElementList elements = as_triangles_where_all_are(indices.list(vertex_count, elements_), elements_);
+    if (!elements.are_triangles()) {
+      note_ = host_finds_quadrilaterals(options);
+    } else if (options.prefers_topology_of_device() && !constraints.slide.names_vertices()) {
+      // (A device does not know of named lines.)
       try {
-        smoother_ = backend_of(options).prepare_mesh(vertex_count_, listed, constraints, options);
+        smoother_ = backend_of(options).prepare_mesh(vertex_count_, elements.triangles(), constraints, options);
       } catch (const DeviceError& error) {
         if (options.topology == Topology::device) {
           throw;
@@ -58,12 +45,12 @@ class SmoothingPlan::Implementation {
       }
       is_analysed_by_backend_ = smoother_ != nullptr;
       if (is_analysed_by_backend_) {
-        release(triangles_);
+        elements_ = OwnElements();
         return;
       }
     }
-    keep(listed, triangles_);
-    mesh_.emplace(vertex_count_, std::span<const Triangle>(triangles_), constraints, workers_);
+    elements_.keep(elements);
+    mesh_.emplace(vertex_count_, elements_.list(), constraints, workers_);
   }
 
   const SmoothingOptions& options() const { return options_; }
@@ -88,9 +75,7 @@ class SmoothingPlan::Implementation {
       require_one_height(points, copy, [this] { return fixed(); });
     }
     SmoothingResult result = is_analysed_by_backend_ ? smoother_->smooth(copy, stored, std::nullopt)
-                             : mixed_.empty()
-                                 ? smooth_oriented(std::span<const Triangle>(triangles_), copy, stored, patient)
-                                 : smooth_oriented(std::span<const MixedElement>(mixed_), copy, stored, patient);
+                                                     : smooth_oriented(copy, stored, patient);
     result.backend_note = joined_notes(note_, result.backend_note);
     points.write(copy, workers_);
     return result;
@@ -102,18 +87,11 @@ class SmoothingPlan::Implementation {
     return options;
   }
 
-  template <class Corners>
-  static void keep(std::span<const Corners> listed, std::vector<Corners>& kept) {
-    if (listed.data() != kept.data()) {
-      kept.assign(listed.begin(), listed.end());
-    }
-  }
-
   /// Finds the frame and the orientation that these points give the mesh, and makes it ready again where that is new.
   /// `patient`: ends when all is ready.
-  template <class Corners>
-  SmoothingResult smooth_oriented(std::span<const Corners> elements, std::vector<Point2<double>>& points,
-                                  Storage storage, std::optional<CallLimit>& patient) {
+  SmoothingResult smooth_oriented(std::vector<Point2<double>>& points, Storage storage,
+                                  std::optional<CallLimit>& patient) {
+    const ElementList elements = elements_.list();
     const LocalPoints local = entered(local_frame_of_cells(points, mesh_->fixed()), points);
     if (mesh_->look_at(local.points, elements, options_.used_layers(), workers_) || smoother_ == nullptr) {
       // It goes first: its memory is free for the next one, and if that cannot be made, nobody takes the old one for
@@ -124,9 +102,11 @@ class SmoothingPlan::Implementation {
     patient.reset();
     SmoothingResult result = smoother_->smooth(points, storage, local.frame);
     result.layers = mesh_->layers();
-    result.quadrilaterals = ElementList(elements).count_quadrilaterals();
-    count_invalid(
-        elements, mesh_->reversed(), [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
+    result.quadrilaterals = elements.count_quadrilaterals();
+    elements.visit([&](const auto& listed) {
+      count_invalid(
+          listed, mesh_->reversed(), [&](std::int32_t v) { return local.frame.enter(points[v]); }, workers_, result);
+    });
     return result;
   }
 
@@ -136,8 +116,7 @@ class SmoothingPlan::Implementation {
   std::unique_ptr<PreparedSmoother> smoother_;
   bool is_analysed_by_backend_ = false;  ///< what follows is empty then
   std::string note_;                     ///< what the user is to know of who found the topology
-  std::vector<Triangle> triangles_;
-  std::vector<MixedElement> mixed_;  ///< in place of these, where quadrilaterals are among them
+  OwnElements elements_;                 ///< listed as triangles where all are
   std::optional<AnalysedMesh> mesh_;
 };
 

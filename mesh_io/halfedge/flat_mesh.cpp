@@ -12,7 +12,6 @@
 #include <string>
 #include <utility>
 
-#include "trismooth/base/machine/release.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/element.h"
 
@@ -68,31 +67,6 @@ std::optional<MixedElement> element_of(const PolyConnectivity& mesh, FaceHandle 
   }
   return count <= corners.size() ? std::optional(corners) : std::nullopt;
 }
-
-/// Elements that come one after the other: as triangles up to the first quadrilateral.
-class Listed {
- public:
-  explicit Listed(std::size_t most) : most_(most) { triangles_.reserve(most); }
-
-  void append(const MixedElement& element) {
-    if (mixed_.empty() && corner_count(element) == 3) {
-      triangles_.push_back({element[0], element[1], element[2]});
-      return;
-    }
-    if (mixed_.empty()) {
-      mixed_.reserve(most_);
-      std::ranges::transform(triangles_, std::back_inserter(mixed_), [](const Triangle& t) { return as_mixed(t); });
-      release(triangles_);
-    }
-    mixed_.push_back(element);
-  }
-  OwnElements take() && { return mixed_.empty() ? OwnElements(std::move(triangles_)) : OwnElements(std::move(mixed_)); }
-
- private:
-  std::size_t most_;
-  std::vector<Triangle> triangles_;
-  std::vector<MixedElement> mixed_;
-};
 
 void append_polygon(const PolyConnectivity& mesh, FaceHandle f, FlatMesh& flat) {
   std::vector<std::int32_t> corners;
@@ -211,7 +185,7 @@ FlatMesh flat_mesh(const PolyConnectivity& mesh) {
                 .polygons = {},
                 .polygon_faces = {},
                 .in_a_cell = std::vector<std::uint8_t>(mesh.n_vertices(), 0)};
-  Listed listed(mesh.n_faces());
+  flat.elements.reserve(mesh.n_faces());
   flat.faces.reserve(mesh.n_faces());
   for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
     if (is_deleted(mesh, FaceHandle(f))) {
@@ -219,7 +193,7 @@ FlatMesh flat_mesh(const PolyConnectivity& mesh) {
     }
     if (const auto element = element_of(mesh, FaceHandle(f))) {
       flat.faces.push_back(f);
-      listed.append(*element);
+      flat.elements.append(*element);
       for (const std::int32_t corner : corners_of(*element)) {
         flat.in_a_cell[static_cast<std::size_t>(corner)] = 1;
       }
@@ -230,7 +204,6 @@ FlatMesh flat_mesh(const PolyConnectivity& mesh) {
   for (const std::int32_t corner : flat.polygons.connectivity) {
     flat.in_a_cell[static_cast<std::size_t>(corner)] = 1;
   }
-  flat.elements = std::move(listed).take();
   return flat;
 }
 

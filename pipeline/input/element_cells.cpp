@@ -70,46 +70,6 @@ bool stands_as(std::uint8_t type, std::span<const std::int32_t> vertices) {
   return ordinary_type(type, vertices.size()) == wanted && !repeats_a_vertex(vertices);
 }
 
-/// Lists elements one after the other: as triangles until the first quadrilateral comes.
-class ElementLister {
- public:
-  explicit ElementLister(ElementCells& mesh) : mesh_(mesh) {}
-
-  void add(const Triangle& triangle, std::size_t cell) {
-    if (is_mixed_) {
-      mixed_.push_back(as_mixed(triangle));
-    } else {
-      triangles_.push_back(triangle);
-    }
-    mesh_.cells.push_back(static_cast<std::int32_t>(cell));
-  }
-  void add(const MixedElement& quad, std::size_t cell) {
-    if (!is_mixed_) {
-      is_mixed_ = true;
-      std::ranges::transform(triangles_, std::back_inserter(mixed_),
-                             [](const Triangle& triangle) { return as_mixed(triangle); });
-      triangles_ = {};
-    }
-    mixed_.push_back(quad);
-    mesh_.cells.push_back(static_cast<std::int32_t>(cell));
-  }
-  /// The triangles of a strip; false where it has none.
-  bool add_strip(std::span<const std::int32_t> strip, std::size_t cell) {
-    const std::size_t before = mesh_.cells.size();
-    for_each_strip_triangle(strip, [&](const Triangle& triangle) { add(triangle, cell); });
-    return mesh_.cells.size() > before;
-  }
-
-  bool is_mixed() const { return is_mixed_; }
-  void finish() { is_mixed_ ? mesh_.list(std::move(mixed_)) : mesh_.list(std::move(triangles_)); }
-
- private:
-  ElementCells& mesh_;
-  std::vector<Triangle> triangles_;
-  std::vector<MixedElement> mixed_;
-  bool is_mixed_ = false;
-};
-
 /// Takes the cells of a document that has elements of one kind alone, as they lie there; false, and nothing is taken,
 /// where it has others.
 template <class Corners>
@@ -188,12 +148,19 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
   FirstRepeating first;
   std::int64_t collapsed = 0;
   mesh.cells.reserve(document.cells.size());
-  ElementLister lister(mesh);
+  const auto add = [&mesh](const auto& corners, std::size_t cell) {
+    mesh.listed.append(corners);
+    mesh.cells.push_back(static_cast<std::int32_t>(cell));
+  };
   for (std::size_t c = 0; c < document.cells.size(); ++c) {
     const std::uint8_t type = document.cells.types[c];
     const auto vertices = document.cells[c];
-    if (type == cell_type::triangle_strip && lister.add_strip(vertices, c)) {
-      continue;
+    if (type == cell_type::triangle_strip) {
+      const std::size_t before = mesh.cells.size();
+      for_each_strip_triangle(vertices, [&](const Triangle& triangle) { add(triangle, c); });
+      if (mesh.cells.size() > before) {
+        continue;
+      }
     }
     if (const auto triangle = triangle_of_cell(type, vertices)) {
       if (triangle->middles) {
@@ -201,19 +168,19 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
         mesh.quadratics.push_back({static_cast<std::int32_t>(mesh.cells.size()), {ab, bc, ca, no_corner, no_corner}});
       }
       collapsed += triangle->is_quad ? 1 : 0;
-      lister.add(triangle->corners, c);
+      add(triangle->corners, c);
     } else if (const auto quad = quads == Quads::smooth ? quad_of_cell(type, vertices) : std::nullopt) {
       if (quad->middles) {
         mesh.quadratics.push_back({static_cast<std::int32_t>(mesh.cells.size()), *quad->middles});
       }
-      lister.add(quad->corners, c);
+      add(quad->corners, c);
     } else {
       hold_cell(document, c, first, mesh);
     }
   }
-  lister.finish();
+  mesh.elements = mesh.listed.list();
   mesh.notes = notes_of_other_cells(mesh.other_cells - mesh.repeating_quads, mesh.repeating_triangles, first.triangle,
-                                    lister.is_mixed() ? "triangle and quadrilateral" : "triangle");
+                                    mesh.elements.are_triangles() ? "triangle" : "triangle and quadrilateral");
   if (mesh.repeating_quads > 0) {
     mesh.notes.push_back(
         counted(mesh.repeating_quads, "quadrilateral", "quadrilaterals") + " repeating a node (the first is cell " +

@@ -123,19 +123,6 @@ std::vector<std::int32_t> quads_not_in_turn(const PlanarMesh& mesh) {
   return found;
 }
 
-/// Elements that are listed as of both kinds as triangles, where they are that.
-void list_as_triangles(PlanarMesh& mesh) {
-  if (mesh.elements.are_triangles() || mesh.count_quadrilaterals() > 0) {
-    return;
-  }
-  std::vector<Triangle> triangles;
-  triangles.reserve(mesh.elements.size());
-  for (const auto corners : mesh.elements) {
-    triangles.push_back({corners[0], corners[1], corners[2]});
-  }
-  mesh.list(std::move(triangles));
-}
-
 }  // namespace
 
 void hold_crossed_quads(PlanarMesh& mesh) {
@@ -156,7 +143,7 @@ void hold_crossed_quads(PlanarMesh& mesh) {
   }
   mesh.crossed_quads = std::ssize(crossed);
   leave_out(mesh, crossed);
-  list_as_triangles(mesh);
+  mesh.elements = as_triangles_where_all_are(mesh.elements, mesh.listed);
 }
 
 ThinQuads find_thin_quads(const PlanarMesh& mesh, std::span<const double> points, std::span<const std::uint8_t> held) {

@@ -36,12 +36,6 @@ namespace {
 
 using Values = nb::ndarray<nb::numpy, double, nb::ndim<1>>;
 
-/// Copied: another thread may change the caller's while they are read.
-template <class Corners>
-std::vector<Corners> copied(std::span<const Corners> listed, std::vector<Corners>& converted) {
-  return listed.data() == converted.data() ? std::move(converted) : std::vector<Corners>(listed.begin(), listed.end());
-}
-
 /// The report, and by its name the values of each metric that elements of the mesh have, one an element.
 nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_object, nb::handle threads_object) {
   const HostArray points_array(points_object, "points");
@@ -61,16 +55,11 @@ nb::tuple quality_of_arrays(nb::handle points_object, nb::handle triangles_objec
     Workers workers(threads);
     BulkVector<std::byte> packed(points.bytes());
     points.copy_to(packed.data(), workers);
-    const auto report_of = [&](const auto& elements) {
-      return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()), elements,
-                     places, QualityOptions{.threads = threads});
-    };
     report = naming_arguments([&] {
-      return with_elements(triangles.corners(), static_cast<std::int64_t>(points.size()),
-                           [&](const auto& listed, auto& converted) {
-                             const auto elements = copied(listed, converted);
-                             return report_of(elements);
-                           });
+      // Copied: another thread may change the caller's while they are read.
+      const OwnElements elements = own_elements(triangles.corners(), static_cast<std::int64_t>(points.size()));
+      return quality(packed_points(packed.data(), points.size(), points.components(), points.storage()),
+                     IndexView(elements.list()), places, QualityOptions{.threads = threads});
     });
   }
   double* const first = values->data();
@@ -95,15 +84,15 @@ nb::object repeated_triangles(nb::handle triangles_object, std::size_t vertex_co
   {
     const nb::gil_scoped_release no_gil;
     naming_arguments([&] {
-      with_elements(triangles.corners(), static_cast<std::int64_t>(vertex_count),
-                    [&](const auto& listed, auto& converted) {
-                      const auto kept = copied(listed, converted);
-                      const auto count = static_cast<std::int32_t>(vertex_count);
-                      if (std::ranges::none_of(kept, [&](const auto& corners) { return is_faulty(count, corners); })) {
-                        Workers workers(1);
-                        found = find_repeated_triangles(kept, workers);
-                      }
-                    });
+      const OwnElements elements = own_elements(triangles.corners(), static_cast<std::int64_t>(vertex_count));
+      const bool is_valid = elements.list().visit([&](const auto& listed) {
+        return std::ranges::none_of(
+            listed, [&](const auto& corners) { return is_faulty(static_cast<std::int32_t>(vertex_count), corners); });
+      });
+      if (is_valid) {
+        Workers workers(1);
+        found = find_repeated_triangles(IndexView(elements.list()), workers);
+      }
     });
   }
   const std::size_t count = found.size();

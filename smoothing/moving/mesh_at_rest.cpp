@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "trismooth/base/mesh_size.h"
-#include "trismooth/base/triangles_alone.h"
 #include "trismooth/quality/element.h"
 #include "trismooth/smoothing/moving/overlaps.h"
 #include "trismooth/smoothing/rings/analysed_mesh.h"
@@ -39,12 +38,7 @@ MeshAtRest::MeshAtRest(std::vector<Point2<double>> points, const IndexView& tria
     : points_(std::move(points)) {
   check_mesh_size(std::ssize(points_), static_cast<std::int64_t>(triangles.size()),
                   triangles.may_have_quadrilaterals() ? 4 : 3);
-  elements_ = own_elements(triangles, std::ssize(points_));
-  if (!elements().are_triangles()) {
-    if (auto alone = triangles_alone(elements().as<MixedElement>())) {
-      elements_ = *std::move(alone);
-    }
-  }
+  elements_.keep(as_triangles_where_all_are(triangles.list(std::ssize(points_), elements_), elements_));
   AnalysedMesh mesh(static_cast<std::int32_t>(points_.size()), elements(), constraints, workers);
   held_ = mesh.fixed();
   local_ = in_frame_of(points_, held_, workers);

@@ -49,8 +49,8 @@ static_assert(!std::is_convertible_v<std::vector<std::array<int, 5>>&, IndexView
 static_assert(!std::is_convertible_v<Eigen::MatrixXi&, IndexView>);
 
 std::vector<Triangle> seen(const IndexView& view) {
-  std::vector<Triangle> converted;
-  const auto triangles = view.triangles(std::numeric_limits<std::int32_t>::max(), converted);
+  OwnElements converted;
+  const auto triangles = view.list(std::numeric_limits<std::int32_t>::max(), converted).triangles();
   REQUIRE(view.size() == triangles.size());
   return {triangles.begin(), triangles.end()};
 }
@@ -94,12 +94,12 @@ void check_type_of_four() {
   const std::vector<std::array<T, 4>> listed{{0, 1, 2, 3}, {3, 2, 4, static_cast<T>(-1)}};
   const IndexView view(listed);
   REQUIRE(view.may_have_quadrilaterals());
-  std::vector<trismooth::MixedElement> converted;
-  const auto elements = view.elements(5, converted);
+  OwnElements converted;
+  const auto elements = view.list(5, converted).as<trismooth::MixedElement>();
   REQUIRE(elements.size() == 2);
   CHECK(elements[0] == trismooth::MixedElement{0, 1, 2, 3});
   CHECK(elements[1] == trismooth::MixedElement{3, 2, 4, trismooth::no_corner});
-  CHECK(converted.empty() == (std::is_same_v<T, std::int32_t>));
+  CHECK(converted.list().empty() == (std::is_same_v<T, std::int32_t>));
 }
 
 TEST_CASE("four vertex numbers of every type are the same elements, and -1 in the last place is a triangle") {
@@ -107,23 +107,22 @@ TEST_CASE("four vertex numbers of every type are the same elements, and -1 in th
   check_type_of_four<std::uint32_t>();
   check_type_of_four<std::int64_t>();
   check_type_of_four<std::uint64_t>();
-  std::vector<trismooth::MixedElement> converted;
+  OwnElements converted;
   const std::vector<std::array<std::int64_t, 4>> too_large{{0, 1, 2, std::int64_t{1} << 32}};
-  CHECK(refusal([&] { static_cast<void>(IndexView(too_large).elements(5, converted)); }) ==
+  CHECK(refusal([&] { static_cast<void>(IndexView(too_large).list(5, converted)); }) ==
         "mesh: element 0 names vertex 4294967296; vertices are numbered from 0 to 4");
   const std::vector<Triangle> triangles{{0, 1, 2}};
   CHECK_FALSE(IndexView(triangles).may_have_quadrilaterals());
-  CHECK(refusal([&] { static_cast<void>(IndexView(triangles).elements(5, converted)); }) ==
-        "argument: elements: three vertex numbers each, expected four");
 }
 
 TEST_CASE("triangles of int32 are read where they are") {
   const Mesh mesh = test_meshes::star(5);
   const std::vector<std::int32_t> indices(mesh.indices().begin(), mesh.indices().end());
-  std::vector<Triangle> converted;
-  CHECK(static_cast<const void*>(IndexView(indices).triangles(6, converted).data()) == indices.data());
-  CHECK(static_cast<const void*>(IndexView(mesh.triangles).triangles(6, converted).data()) == mesh.triangles.data());
-  CHECK(converted.empty());
+  OwnElements converted;
+  CHECK(static_cast<const void*>(IndexView(indices).list(6, converted).triangles().data()) == indices.data());
+  CHECK(static_cast<const void*>(IndexView(mesh.triangles).list(6, converted).triangles().data()) ==
+        mesh.triangles.data());
+  CHECK(converted.list().empty());
 }
 
 TEST_CASE("a number that 32 bits cannot hold is no other vertex by accident") {
