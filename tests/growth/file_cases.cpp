@@ -37,6 +37,30 @@ std::string star_off(int size) {
   return off_text(test_meshes::star(size));
 }
 
+/// A chain of vertices in a mesh of quadrilaterals, or of some that are not listed in turn.
+std::string quadrilaterals_off(const mixed_meshes::MixedMesh& mesh) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "OFF\n" << mesh.points.size() << ' ' << mesh.elements.size() << " 0\n";
+  for (const auto& [x, y] : mesh.points) {
+    text << x << ' ' << y << " 0\n";
+  }
+  for (const auto& [a, b, c, d] : mesh.elements) {
+    text << "4 " << a << ' ' << b << ' ' << c << ' ' << d << '\n';
+  }
+  return text.str();
+}
+std::string chain_of_quadrilaterals(int size) {
+  return quadrilaterals_off(hostile_meshes::in_quadrilaterals(hostile_meshes::chain(size)));
+}
+std::string quadrilaterals_not_in_turn(int size) {
+  mixed_meshes::MixedMesh mesh(size, 3, 0.1, 1, 0);
+  for (std::size_t e = 0; e < mesh.elements.size(); e += 3) {
+    std::swap(mesh.elements[e][2], mesh.elements[e][3]);
+  }
+  return quadrilaterals_off(mesh);
+}
+
 /// Four triangles around a vertex, in the words of a format: made up to by many times something else.
 constexpr std::string_view vtk_begin = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
 constexpr std::string_view vtk_points = " double\n0 0 0 1 0 0 1 1 0 0 1 0 .6 .7 0\n";
@@ -266,6 +290,8 @@ std::vector<GrowthCase> file_cases() {
   cases.push_back(file_case("point arrays", 100, "vtu", "vtu", &vtu_distinct_point_arrays));
   cases.insert(cases.end(), {
                                 file_case("a fan of one vertex", 300, "off", "off", &star_off),
+                                file_case("a chain in quadrilaterals", 100, "off", "vtk", &chain_of_quadrilaterals),
+                                told_of("quadrilaterals that are not in turn", 100, "off", &quadrilaterals_not_in_turn),
                                 file_case("field arrays", 300, "vtu", "vtu", &vtu_fields),
                                 told_of("arrays of strings", 100, "vtk", &vtk_strings),
                                 file_case("lookup tables", 100, "vtk", "vtu", &vtk_lookup_tables),

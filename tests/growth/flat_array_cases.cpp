@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,22 +17,28 @@ namespace {
 
 using test_meshes::Mesh;
 
-void smooth_once(const Mesh& mesh, std::vector<double> xy, std::span<const std::int32_t> indices,
-                 const trismooth::Sliding& slide) {
+void smooth_once(const trismooth::IndexView& elements, std::vector<double> xy, const trismooth::Sliding& slide) {
   trismooth::SmoothingOptions options;
   options.threads = 1;
   options.max_sweeps = 2;
   // A region a triangle for some of them: there are borders everywhere.
-  std::vector<std::int32_t> regions(mesh.triangles.size(), 0);
+  std::vector<std::int32_t> regions(elements.size(), 0);
   regions.back() = 1;
-  trismooth::smooth(trismooth::xy_points(xy), indices, {.regions = regions, .slide = slide}, options);
+  trismooth::smooth(trismooth::xy_points(xy), elements, {.regions = regions, .slide = slide}, options);
 }
 
 GrowthCase flat(std::string name, int size, Mesh (*make)(int), const trismooth::Sliding& slide = {}) {
   return {"flat arrays: " + std::move(name), size, [make, slide](int count, const ScratchFolder&) {
-            const auto mesh = std::make_shared<Mesh>(make(count));
-            return
-                [mesh, xy = mesh->xy(), indices = mesh->indices(), slide] { smooth_once(*mesh, xy, indices, slide); };
+            const Mesh mesh = make(count);
+            return [xy = mesh.xy(), triangles = mesh.triangles, slide] { smooth_once(triangles, xy, slide); };
+          }};
+}
+
+/// A mesh of triangles whose every triangle is three quadrilaterals.
+GrowthCase quadrilaterals(const std::string& name, int size, Mesh (*make)(int)) {
+  return {"flat arrays of quadrilaterals: " + name, size, [make](int count, const ScratchFolder&) {
+            const mixed_meshes::MixedMesh mesh = hostile_meshes::in_quadrilaterals(make(count));
+            return [xy = mesh.xy(), elements = mesh.elements] { smooth_once(elements, xy, {}); };
           }};
 }
 
@@ -137,6 +142,10 @@ std::vector<GrowthCase> flat_array_cases() {
       sliding("lines that slide, of many components", 500, &islands),
       sliding("lines that slide and touch at one place", 500, &apart_at_one_place),
       sliding("lines that slide, of long edges side by side", 500, &slanting_bars),
+      quadrilaterals("a chain", 400, &hostile_meshes::chain),
+      quadrilaterals("a hub of free neighbours", 800, &hostile_meshes::wheel),
+      quadrilaterals("a vertex of many fans", 200, &hostile_meshes::windmill),
+      quadrilaterals("an edge of many triangles", 200, &hostile_meshes::book),
       rounds_of_the_guard(),
   };
 }

@@ -6,12 +6,15 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/splitmix64.h"
 
+#include "support/mixed_meshes.h"
 #include "support/test_meshes.h"
 
 /// Meshes and points that somebody made to keep a program busy. They are small files all the same, and are to take
@@ -90,6 +93,32 @@ inline Mesh book(std::int32_t pages) {
     mesh.triangles.push_back({0, i + 2, 1});
   }
   return mesh;
+}
+
+/// A mesh of triangles, each of which is cut into three quadrilaterals.
+inline mixed_meshes::MixedMesh in_quadrilaterals(const Mesh& mesh) {
+  mixed_meshes::MixedMesh cut;
+  const auto middle_of = [&](const auto&... corners) {
+    const double weight = 1.0 / sizeof...(corners);
+    cut.points.push_back({weight * (mesh.points[corners].x + ...), weight * (mesh.points[corners].y + ...)});
+    return cut.vertex_count() - 1;
+  };
+  for (const Point& point : mesh.points) {
+    cut.points.push_back({point.x, point.y});
+  }
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+  const auto middle_of_side = [&](std::int32_t a, std::int32_t b) {
+    const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), 0);
+    return is_new ? found->second = middle_of(a, b) : found->second;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const std::int32_t centre = middle_of(a, b, c);
+    const std::int32_t ab = middle_of_side(a, b);
+    const std::int32_t bc = middle_of_side(b, c);
+    const std::int32_t ca = middle_of_side(c, a);
+    cut.elements.insert(cut.elements.end(), {{a, ab, centre, ca}, {b, bc, centre, ab}, {c, ca, centre, bc}});
+  }
+  return cut;
 }
 
 /// Points (0, 0, z) whose hash in PointWelder ends in 34 zeros, all of them: that of the splitmix64 finaliser over the
