@@ -100,22 +100,11 @@ bool take_all(const CellList& cells, ElementCells& mesh, Workers& workers) {
   return true;
 }
 
-/// The first cells that repeat a vertex.
-struct FirstRepeating {
-  std::optional<std::size_t> triangle;
-  std::size_t quad = 0;  ///< where there is one
-};
-
 /// Counts a cell that is no element, and holds its vertices.
-void hold_cell(const MeshDocument& document, std::size_t cell, FirstRepeating& first, ElementCells& mesh) {
+void hold_cell(const MeshDocument& document, std::size_t cell, ElementCells& mesh) {
   const std::uint8_t type = document.cells.types[cell];
   const auto vertices = document.cells[cell];
-  if (is_flat_triangle(type, vertices) && mesh.repeating_triangles++ == 0) {
-    first.triangle = cell;
-  }
-  if (is_repeating_quad(type, vertices) && mesh.repeating_quads++ == 0) {
-    first.quad = cell;
-  }
+  mesh.repeating.count(type, vertices, cell);
   mesh.high_order_triangles += is_high_order(type, vertices) ? 1 : 0;
   mesh.high_order_quads += is_high_order_quad(type, vertices) ? 1 : 0;
   mesh.held_quads += quad_of_cell(type, vertices) ? 1 : 0;
@@ -145,7 +134,6 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
       (quads == Quads::smooth && take_all<MixedElement>(document.cells, mesh, workers))) {
     return;
   }
-  FirstRepeating first;
   std::int64_t collapsed = 0;
   mesh.cells.reserve(document.cells.size());
   const auto add = [&mesh](const auto& corners, std::size_t cell) {
@@ -175,19 +163,12 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
       }
       add(quad->corners, c);
     } else {
-      hold_cell(document, c, first, mesh);
+      hold_cell(document, c, mesh);
     }
   }
   mesh.elements = mesh.listed.list();
-  mesh.notes = notes_of_other_cells(mesh.other_cells - mesh.repeating_quads, mesh.repeating_triangles, first.triangle,
+  mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating,
                                     mesh.elements.are_triangles() ? "triangle" : "triangle and quadrilateral");
-  if (mesh.repeating_quads > 0) {
-    mesh.notes.push_back(
-        counted(mesh.repeating_quads, "quadrilateral", "quadrilaterals") + " repeating a node (the first is cell " +
-        std::to_string(first.quad) +
-        "): kept as they are, their vertices held fixed; listed as triangles of three or six nodes, or "
-        "with nodes that differ, they are smoothed");
-  }
   if (collapsed > 0) {
     mesh.notes.push_back(counted(collapsed, "quadrilateral repeats a corner: it is smoothed as the triangle that it is",
                                  "quadrilaterals repeat a corner: they are smoothed as the triangles that they are"));
@@ -278,18 +259,32 @@ std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> ve
   return triangle_of_cell(type, vertices) ? 1 : 0;
 }
 
-std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int64_t repeating_triangles,
-                                              std::optional<std::size_t> first_repeating, std::string_view kinds) {
-  std::vector<std::string> notes;
-  if (repeating_triangles > 0) {
-    notes.push_back(
-        counted(repeating_triangles, "triangle", "triangles") + " repeating a vertex" +
-        (first_repeating ? " (the first is cell " + std::to_string(*first_repeating) + ")" : std::string()) +
-        ": kept as they are, their vertices held fixed");
+void RepeatingCells::count(std::uint8_t type, std::span<const std::int32_t> vertices, std::size_t cell) {
+  if (is_flat_triangle(type, vertices) && triangles++ == 0) {
+    first_triangle = cell;
   }
-  if (other_cells > repeating_triangles) {
-    notes.push_back(counted(other_cells - repeating_triangles, "cell", "cells") + " of other types than " +
-                    std::string(kinds) + ": not smoothed, their vertices held fixed");
+  if (is_repeating_quad(type, vertices) && quads++ == 0) {
+    first_quad = cell;
+  }
+}
+
+std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, const RepeatingCells& repeating,
+                                              std::string_view kinds) {
+  std::vector<std::string> notes;
+  const auto named = [](std::int64_t count, const char* kind, const char* repeats, std::optional<std::size_t> first) {
+    return counted(count, kind, std::string(kind) + "s") + " repeating a " + repeats + " (the first is cell " +
+           std::to_string(first.value_or(0)) + "): kept as they are, their vertices held fixed";
+  };
+  if (repeating.triangles > 0) {
+    notes.push_back(named(repeating.triangles, "triangle", "vertex", repeating.first_triangle));
+  }
+  if (const std::int64_t others = other_cells - repeating.triangles - repeating.quads; others > 0) {
+    notes.push_back(counted(others, "cell", "cells") + " of other types than " + std::string(kinds) +
+                    ": not smoothed, their vertices held fixed");
+  }
+  if (repeating.quads > 0) {
+    notes.push_back(named(repeating.quads, "quadrilateral", "node", repeating.first_quad) +
+                    "; listed as triangles of three or six nodes, or with nodes that differ, they are smoothed");
   }
   return notes;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,6 +22,17 @@
 namespace trismooth {
 
 class Workers;
+
+/// Cells that are no elements since they repeat a vertex.
+struct RepeatingCells {
+  std::int64_t triangles = 0;                 ///< is_flat_triangle()
+  std::int64_t quads = 0;                     ///< is_repeating_quad()
+  std::optional<std::size_t> first_triangle;  ///< the number of the first of these
+  std::optional<std::size_t> first_quad;
+
+  /// Counts a cell that is no element, if it is one of them. Cells come in order.
+  void count(std::uint8_t type, std::span<const std::int32_t> vertices, std::size_t cell);
+};
 
 /// The elements that are smoothed among the cells of a document, triangles and quadrilaterals, and what the other cells
 /// hold. The document outlives it, and its cells stay as they are.
@@ -44,8 +56,7 @@ struct ElementCells {
   NamedSides sides;                          ///< these sides
   std::vector<std::uint8_t> in_cell;         ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;              ///< cells that are no elements
-  std::int64_t repeating_triangles = 0;      ///< those of them that are triangles but for a vertex that they repeat
-  std::int64_t repeating_quads = 0;          ///< and quadrilaterals that repeat one and are no triangles for that
+  RepeatingCells repeating;                  ///< those of them that repeat a vertex
   std::int64_t high_order_triangles = 0;     ///< those of them that are triangles of seven nodes, of ten, or of more
   std::int64_t high_order_quads = 0;         ///< and quadrilaterals of six nodes, or of more than nine
   std::int64_t held_quads = 0;               ///< and other quadrilaterals: Quads::hold
@@ -111,10 +122,9 @@ bool is_repeating_quad(std::uint8_t type, std::span<const std::int32_t> vertices
 /// How many triangles of a mesh a cell of that type counts as, 0 where it is none.
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices);
 
-/// What the user should know of cells that are no elements, one sentence each. `first_repeating`: the first triangle
-/// that repeats a vertex, if it is known. `kinds`: what the elements are.
-std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int64_t repeating_triangles,
-                                              std::optional<std::size_t> first_repeating,
+/// What the user should know of cells that are no elements, `repeating` ones among them, one sentence each. `kinds`:
+/// what the elements are.
+std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, const RepeatingCells& repeating,
                                               std::string_view kinds = "triangle");
 
 }  // namespace trismooth

@@ -40,8 +40,8 @@ Pair pair_of(std::int32_t a, std::int32_t b) {
 }
 
 /// Whether the corners turn one way all around: then no other order of them could.
-bool is_convex(const PlanarMesh& mesh, const MixedElement& quad) {
-  const auto [a, b, c, d] = points_of(quad, mesh.points);
+bool is_convex(std::span<const Point2<double>> points, const MixedElement& quad) {
+  const auto [a, b, c, d] = points_of(quad, points);
   const auto turn = [](Point2<double> side, Point2<double> next) { return side.x * next.y - side.y * next.x; };
   const std::array sides{b - a, c - b, d - c, a - d};
   const std::array turns{turn(sides[0], sides[1]), turn(sides[1], sides[2]), turn(sides[2], sides[3]),
@@ -80,18 +80,24 @@ class PairUses {
 
   /// Whether elements beside the quadrilateral have one of its diagonals for a side, and none has two opposite sides.
   bool tell_another_order(std::span<const std::int32_t> quad) const {
-    const auto is_side_beside = [&](std::size_t i) {
-      const std::size_t pair = place(pair_of(quad[i], quad[i + 2]));
-      return as_sides_[pair] > 0 || as_diagonals_[pair] > 1;
-    };
-    const auto is_its_own = [&](std::size_t i) {
-      return as_sides_[place(pair_of(quad[i], next_corner(quad, i)))] == 1;
-    };
-    return (is_side_beside(0) || is_side_beside(1)) &&
-           ((is_its_own(0) && is_its_own(2)) || (is_its_own(1) && is_its_own(3)));
+    return (is_side_beside(quad, 0) || is_side_beside(quad, 1)) &&
+           ((is_its_own(quad, 0) && is_its_own(quad, 2)) || (is_its_own(quad, 1) && is_its_own(quad, 3)));
+  }
+  /// Whether they may, by what is known at corner i: the elements around it.
+  bool may_tell_another_order(std::span<const std::int32_t> quad, std::size_t i) const {
+    return is_side_beside(quad, i % 2) && (is_its_own(quad, i) || is_its_own(quad, (i + 3) % 4));
   }
 
  private:
+  /// Whether another element has the diagonal from corner i on for a side.
+  bool is_side_beside(std::span<const std::int32_t> quad, std::size_t i) const {
+    const std::size_t pair = place(pair_of(quad[i], quad[i + 2]));
+    return as_sides_[pair] > 0 || as_diagonals_[pair] > 1;
+  }
+  /// Whether no other element has the side from corner i on.
+  bool is_its_own(std::span<const std::int32_t> quad, std::size_t i) const {
+    return as_sides_[place(pair_of(quad[i], next_corner(quad, i)))] == 1;
+  }
   std::size_t place(Pair pair) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(pairs_, pair) - pairs_.begin());
   }
@@ -107,14 +113,19 @@ class PairUses {
   std::vector<std::int32_t> as_diagonals_;
 };
 
-/// Those of the elements that are not listed in turn, ascending.
-std::vector<std::int32_t> quads_not_in_turn(const PlanarMesh& mesh) {
+std::vector<std::int32_t> quads_not_convex(std::span<const Point2<double>> points, const ElementList& elements) {
   std::vector<std::int32_t> found;
-  for_quads(mesh.elements, [&](std::size_t e, const MixedElement& quad) {
-    if (!is_convex(mesh, quad)) {
+  for_quads(elements, [&](std::size_t e, const MixedElement& quad) {
+    if (!is_convex(points, quad)) {
       found.push_back(static_cast<std::int32_t>(e));
     }
   });
+  return found;
+}
+
+/// Those of the elements that are not listed in turn, ascending.
+std::vector<std::int32_t> quads_not_in_turn(const PlanarMesh& mesh) {
+  std::vector<std::int32_t> found = quads_not_convex(mesh.points, mesh.elements);
   if (!found.empty()) {
     const PairUses uses(mesh.elements, found);
     std::erase_if(found,
@@ -144,6 +155,24 @@ void hold_crossed_quads(PlanarMesh& mesh) {
   mesh.crossed_quads = std::ssize(crossed);
   leave_out(mesh, crossed);
   mesh.elements = as_triangles_where_all_are(mesh.elements, mesh.listed);
+}
+
+bool may_have_crossed_quads(std::span<const Point2<double>> points, const ElementList& elements,
+                            std::span<const std::uint8_t> ghosts) {
+  const std::vector<std::int32_t> found = quads_not_convex(points, elements);
+  if (found.empty()) {
+    return false;
+  }
+  const PairUses uses(elements, found);
+  return std::ranges::any_of(found, [&](std::int32_t e) {
+    const auto quad = elements[static_cast<std::size_t>(e)];
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (ghosts[static_cast<std::size_t>(quad[i])] == 0 && uses.may_tell_another_order(quad, i)) {
+        return true;
+      }
+    }
+    return false;
+  });
 }
 
 ThinQuads find_thin_quads(const PlanarMesh& mesh, std::span<const double> points, std::span<const std::uint8_t> held) {

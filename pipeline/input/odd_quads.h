@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "trismooth/base/element_list.h"
+#include "trismooth/base/point2.h"
+
 namespace trismooth {
 
 struct PlanarMesh;
@@ -15,6 +18,12 @@ struct PlanarMesh;
 /// that is not convex since its vertices are in the wrong places stays an element, which is inverted. To be called
 /// before copies are taken out. Complexity: linear, and n log n in those that are not convex.
 void hold_crossed_quads(PlanarMesh& mesh);
+
+/// Whether hold_crossed_quads() may find one in a mesh of which a part is known: these elements, all that there are
+/// around vertices for which `ghosts` has 0. It does find none where this is false of all parts and each vertex has a 0
+/// in one of them. Complexity: linear, and n log n in those that are not convex.
+bool may_have_crossed_quads(std::span<const Point2<double>> points, const ElementList& elements,
+                            std::span<const std::uint8_t> ghosts);
 
 /// What has no thickness on purpose.
 struct ThinQuads {

@@ -23,9 +23,7 @@ OwnCells count_own_cells(const Piece& piece) {
     ++count.cells;
     if (has_triangles[c] == 0) {
       ++count.others;
-      if (is_flat_triangle(cells.types[c], cells[c]) && count.repeating++ == 0) {
-        count.first_repeating = static_cast<std::int64_t>(c);
-      }
+      count.repeating.count(cells.types[c], cells[c], c);
     }
   }
   return count;

@@ -38,9 +38,8 @@ struct Piece {
 struct OwnCells {
   std::int64_t triangles = 0;  ///< and quadrilaterals that are smoothed; those of strips count one by one
   std::int64_t cells = 0;
-  std::int64_t others = 0;            ///< that are no elements
-  std::int64_t repeating = 0;         ///< those of them that are triangles but for a vertex that they repeat
-  std::int64_t first_repeating = -1;  ///< the first of these, or none
+  std::int64_t others = 0;   ///< that are no elements
+  RepeatingCells repeating;  ///< those of them that repeat a vertex, by their numbers in the piece
 };
 
 /// Counts the piece's. Local. Complexity: linear.

@@ -23,6 +23,8 @@
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/mpi/rank_layers.h"
+#include "trismooth/pipeline/input/odd_quads.h"
+#include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/ranks/agreement.h"
 #include "trismooth/pipeline/ranks/file_in_pieces.h"
 #include "trismooth/pipeline/ranks/gathered_run.h"
@@ -105,6 +107,12 @@ class PieceMesh final : public StagedMesh {
         need_whole_mesh("what " + markers + " marks");
       }
     }
+    const auto has_thin_quads = [](const Piece& piece) {
+      return find_thin_quads(piece.mesh, piece.document.points, {}).count > 0;
+    };
+    if (!holds_no_sets(run_.options.fixed_sets) && ranks_->any(std::ranges::any_of(files_.pieces, has_thin_quads))) {
+      need_whole_mesh("quadrilaterals without thickness");
+    }
   }
 
   void connect() override {
@@ -122,6 +130,10 @@ class PieceMesh final : public StagedMesh {
                       std::back_inserter(run_.result.input.point_sets));
     points_ = points_of(files_, mesh_);
     enter_frame();
+    if (ranks_->any(
+            may_have_crossed_quads(local_.points, topology_->overlap().elements(), topology_->overlap().part.ghosts))) {
+      need_whole_mesh("quadrilaterals whose corners are not listed in turn");
+    }
     reversed_ = topology_->reversed(local_.points, run_.workers);
     layers_ = mpi::hold_layers(topology_->overlap(), local_.points, reversed_, run_.options.smoothing.used_layers(),
                                false, held_, *ranks_, run_.workers);
@@ -137,7 +149,7 @@ class PieceMesh final : public StagedMesh {
         report.inverted + report.degenerate > 0) {
       need_whole_mesh("the untangling of inverted triangles");
     }
-    report.degenerate += cells_.repeating;
+    report.degenerate += cells_.repeating.triangles;
     std::vector<std::int64_t> cells;
     for (const WorstElement& element : report.worst) {
       cells.push_back(number_of_triangle(files_, cells_.first, topology_->local_triangle(element.element)));
@@ -307,9 +319,10 @@ class PieceMesh final : public StagedMesh {
       run_.note(names_parallel_file(run_.options.input) ? "the pieces hold no cells: nothing to smooth"
                                                         : "the file holds no cells: nothing to smooth");
     }
-    std::ranges::move(notes_of_other_cells(cells_.others, cells_.repeating, cells_.first_repeating,
-                                           overlap.elements().are_triangles() ? "triangle" : "element"),
-                      std::back_inserter(result.notes));
+    std::ranges::move(
+        notes_of_other_cells(cells_.others, cells_.repeating,
+                             overlap.elements().are_triangles() ? "triangle" : "triangle and quadrilateral"),
+        std::back_inserter(result.notes));
     result.input.fixed_array = constraints_.fixed_array;
     result.input.fixed_array_vertices = topology_->count_vertices(constraints_.by_array);
     result.input.fixed_ids_vertices = constraints_.listed;

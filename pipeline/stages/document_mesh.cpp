@@ -26,7 +26,7 @@ QualityReport report_of(const RunState& run) {
   if (run.options.size_ratio) {
     report.size_ratio = size_ratio_summary(run.view(), run.options.smoothing.threads);
   }
-  report.degenerate += run.mesh.repeating_triangles;
+  report.degenerate += run.mesh.repeating.triangles;
   report.inverted += run.mesh.crossed_quads;
   for (WorstElement& element : report.worst) {
     const auto corners = run.mesh.elements[static_cast<std::size_t>(element.element)];

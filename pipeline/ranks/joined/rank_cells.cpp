@@ -2,7 +2,10 @@
 #include "trismooth/pipeline/ranks/joined/rank_cells.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <optional>
 
 #include <mpi.h>
 
@@ -13,26 +16,29 @@ namespace trismooth {
 RankCells count_rank_cells(const PieceFiles& files, const mpi::Communicator& ranks) {
   constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
   OwnCells cells;
-  std::int64_t first_repeating = none;
+  std::array firsts{none, none};  // triangle, quadrilateral
   for (const Piece& piece : files.pieces) {
     const OwnCells of_piece = count_own_cells(piece);
-    if (of_piece.first_repeating >= 0) {
-      first_repeating = std::min(first_repeating, number_of_cell(piece, of_piece.first_repeating, cells.cells));
-    }
+    const auto take_first = [&](std::optional<std::size_t> cell, std::int64_t& first) {
+      if (cell) {
+        first = std::min(first, number_of_cell(piece, static_cast<std::int64_t>(*cell), cells.cells));
+      }
+    };
+    take_first(of_piece.repeating.first_triangle, firsts[0]);
+    take_first(of_piece.repeating.first_quad, firsts[1]);
     cells.others += of_piece.others;
-    cells.repeating += of_piece.repeating;
+    cells.repeating.triangles += of_piece.repeating.triangles;
+    cells.repeating.quads += of_piece.repeating.quads;
     cells.cells += of_piece.cells;
   }
   RankCells all;
   all.first = ranks.sum_before(cells.cells);
-  if (first_repeating < none && !files.know_cell_ids()) {
-    first_repeating += all.first;
+  for (std::int64_t& first : firsts) {
+    first += first < none && !files.know_cell_ids() ? all.first : 0;
   }
-  all.repeating = ranks.sum(cells.repeating);
-  MPI_Allreduce(MPI_IN_PLACE, &first_repeating, 1, MPI_INT64_T, MPI_MIN, ranks.handle());
-  if (first_repeating < none) {
-    all.first_repeating = static_cast<std::size_t>(first_repeating);
-  }
+  MPI_Allreduce(MPI_IN_PLACE, firsts.data(), static_cast<int>(firsts.size()), MPI_INT64_T, MPI_MIN, ranks.handle());
+  all.repeating = {ranks.sum(cells.repeating.triangles), ranks.sum(cells.repeating.quads),
+                   static_cast<std::size_t>(firsts[0]), static_cast<std::size_t>(firsts[1])};
   all.others = ranks.sum(cells.others);
   all.cells = ranks.sum(cells.cells);
   return all;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "trismooth/mpi/communicator.h"
+#include "trismooth/pipeline/input/element_cells.h"
 #include "trismooth/pipeline/ranks/piece_files.h"
 
 namespace trismooth {
@@ -14,9 +13,8 @@ namespace trismooth {
 struct RankCells {
   std::int64_t first = 0;  ///< the number of the rank's first cell among them
   std::int64_t cells = 0;
-  std::int64_t others = 0;                     ///< that are no elements
-  std::int64_t repeating = 0;                  ///< those of them that are triangles but for a vertex that they repeat
-  std::optional<std::size_t> first_repeating;  ///< the number_of_cell() of the first of these
+  std::int64_t others = 0;   ///< that are no elements
+  RepeatingCells repeating;  ///< those of them that repeat a vertex, by number_of_cell()
 };
 
 /// Counts them. Collective. Complexity: linear.
