@@ -16,13 +16,13 @@ namespace {
 struct FitSums {
   double areas = 0;
   double areas_asked = 0;
-  std::int64_t triangles = 0;
+  std::int64_t elements = 0;
   std::int64_t left_out = 0;
 
   FitSums& operator+=(const FitSums& more) {
     areas += more.areas;
     areas_asked += more.areas_asked;
-    triangles += more.triangles;
+    elements += more.elements;
     left_out += more.left_out;
     return *this;
   }
@@ -66,8 +66,8 @@ SizeFit fit_of(const ElementView<Corners>& view, std::span<const double> inverse
     return log_ratio * log_ratio;
   };
   const double squares = ordered_sum(std::ssize(ratios), square_of, workers);
-  return {sums.triangles, sums.left_out,
-          sums.triangles > 0 ? std::sqrt(squares / static_cast<double>(sums.triangles)) : not_compared};
+  return {sums.elements, sums.left_out,
+          sums.elements > 0 ? std::sqrt(squares / static_cast<double>(sums.elements)) : not_compared};
 }
 
 }  // namespace

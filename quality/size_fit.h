@@ -12,9 +12,9 @@ namespace trismooth {
 /// have a vertex that may move. All A* are scaled by one factor, so that their sum is the sum of the areas: with so
 /// many elements, only relations of sizes can be met.
 struct SizeFit {
-  std::int64_t triangles = 0;  ///< elements whose areas are compared
-  std::int64_t left_out = 0;   ///< the others with a vertex that may move: inverted or degenerate
-  double rms_log_ratio = 0;    ///< the root mean square of ln(A / A*): 0.1 is about 10 % up or down; NaN of none
+  std::int64_t elements = 0;  ///< whose areas are compared
+  std::int64_t left_out = 0;  ///< the others with a vertex that may move: inverted or degenerate
+  double rms_log_ratio = 0;   ///< the root mean square of ln(A / A*): 0.1 is about 10 % up or down; NaN of none
 };
 
 /// Finds it. `inverse_areas`: for every vertex 1 / (area asked for around it), in any unit; a triangle is asked to have

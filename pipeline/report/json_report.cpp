@@ -320,7 +320,7 @@ Json size_fit_json(const PipelineResult& result) {
   }
   const auto side = [](const SizeFit& fit) {
     return Json{
-        {"triangles", fit.triangles}, {"left_out", fit.left_out}, {"rms_log_ratio", number_json(fit.rms_log_ratio)}};
+        {"elements", fit.elements}, {"left_out", fit.left_out}, {"rms_log_ratio", number_json(fit.rms_log_ratio)}};
   };
   return {{"before", side(*result.size_fit_before)}, {"after", side(*result.size_fit_after)}};
 }

@@ -70,7 +70,7 @@ class Sizes(tool.ToolTest):
                     "name": "edge_length" if array == "Edge Length" else array,
                     "values": "areas_of_cells" if array == "area" else "lengths_at_points"})
                 self.assertEqual(fit["before"]["left_out"], 0)
-                self.assertEqual(fit["after"]["triangles"], fit["before"]["triangles"])
+                self.assertEqual(fit["after"]["elements"], fit["before"]["elements"])
                 if array != "area":  # whose vertices have means
                     self.assertAlmostEqual(fit["before"]["rms_log_ratio"], self.off_by("in.vtk"), delta=0.02)
                     self.assertAlmostEqual(fit["after"]["rms_log_ratio"], self.off_by("out.vtk"), delta=0.02)

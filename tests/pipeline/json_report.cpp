@@ -134,8 +134,8 @@ TEST_CASE("the JSON report says how far sizes are from those asked for") {
   result.size_fit_before = trismooth::SizeFit{200, 3, 1.5};
   result.size_fit_after = trismooth::SizeFit{201, 2, 0.25};
   const Json fit = Json::parse(json_report(sample::options(), result))["size_fit"];
-  CHECK(fit["before"] == Json{{"triangles", 200}, {"left_out", 3}, {"rms_log_ratio", 1.5}});
-  CHECK(fit["after"] == Json{{"triangles", 201}, {"left_out", 2}, {"rms_log_ratio", 0.25}});
+  CHECK(fit["before"] == Json{{"elements", 200}, {"left_out", 3}, {"rms_log_ratio", 1.5}});
+  CHECK(fit["after"] == Json{{"elements", 201}, {"left_out", 2}, {"rms_log_ratio", 0.25}});
 }
 
 TEST_CASE("the JSON report says which array sizes were taken from, and what its values were read as") {

@@ -228,7 +228,7 @@ TEST_CASE("sizes are compared where corners slide, too") {
     options.smoothing.method = Method::mean_ratio;
     options.size_array = "h";
     options.slide.along = slide;
-    return smooth_document(document, options).size_fit_after->triangles;
+    return smooth_document(document, options).size_fit_after->elements;
   };
   CHECK(compared(Slide::off) == 0);
   CHECK(compared(Slide::straight) == 10);

@@ -22,7 +22,7 @@ TEST_CASE("sizes fit where they are those asked for but for a factor") {
   const Mesh mesh = triangles_of_areas({1, 2, 5});
   const std::vector<double> asked{1, 1, 1, 0.5, 0.5, 0.5, 0.3, 0.1, 0.2};
   const SizeFit fit = size_fit(view_of(mesh), asked, std::vector<std::uint8_t>(9, 0));
-  CHECK(fit.triangles == 3);
+  CHECK(fit.elements == 3);
   CHECK(fit.left_out == 0);
   CHECK(fit.rms_log_ratio < 1e-14);
 }
@@ -42,13 +42,13 @@ TEST_CASE("triangles that are held or not valid are left out") {
   held[12] = held[13] = held[14] = 1;  // the last one
   held[0] = held[1] = 64;              // the first one keeps a corner
   const SizeFit fit = size_fit(view_of(mesh), std::vector<double>(15, 1), held);
-  CHECK(fit.triangles == 2);
+  CHECK(fit.elements == 2);
   CHECK(fit.left_out == 2);
   CHECK(fit.rms_log_ratio ==
         Approx(size_fit(view_of(triangles_of_areas({1, 3})), std::vector<double>(6, 1), std::vector<std::uint8_t>(6, 0))
                    .rms_log_ratio));
   const SizeFit none = size_fit(view_of(mesh), std::vector<double>(15, 1), std::vector<std::uint8_t>(15, 1));
-  CHECK(none.triangles == 0);
+  CHECK(none.elements == 0);
   CHECK(std::isnan(none.rms_log_ratio));
 }
 
