@@ -273,38 +273,6 @@ TEST_CASE("heights of vertices that are told where to be have to be one, those o
   CHECK_THROWS_AS(moving.follow(points), MeshError);
 }
 
-TEST_CASE("shapes relative to the reference are those of the maps from its triangles") {
-  const Mesh mesh = test_meshes::jittered_grid(7, 6, 0.25, 9);
-  MovingMesh moving(mesh.points, mesh.indices());
-  Points points = mesh.points;
-  for (Point2<double>& p : points) {
-    p = {3 * p.x + p.y, 2 * p.y};
-  }
-  const FollowResult result = moving.follow(points);
-  double least = 1;
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const auto edges = [&](const Points& of) {
-      return std::array{of[t[1]].x - of[t[0]].x, of[t[2]].x - of[t[0]].x, of[t[1]].y - of[t[0]].y,
-                        of[t[2]].y - of[t[0]].y};
-    };
-    const auto [a, b, c, d] = edges(mesh.points);
-    const auto [e, f, g, h] = edges(points);
-    const double determinant = a * d - b * c;
-    const std::array map{(e * d - f * c) / determinant, (f * a - e * b) / determinant, (g * d - h * c) / determinant,
-                         (h * a - g * b) / determinant};
-    double squares = 0;
-    for (const double entry : map) {
-      squares += entry * entry;
-    }
-    const double shape = 2 * (map[0] * map[3] - map[1] * map[2]) / squares;
-    least = std::min(least, shape);
-    sum += shape;
-  }
-  CHECK(result.min_relative_shape == Approx(least));
-  CHECK(result.mean_relative_shape == Approx(sum / static_cast<double>(mesh.triangles.size())));
-}
-
 TEST_CASE("single precision and float points follow as well") {
   const Rotor rotor;
   SmoothingOptions options = smoothing_layers();

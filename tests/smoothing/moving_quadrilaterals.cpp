@@ -7,18 +7,23 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "trismooth/smoothing/moving_mesh.h"
+#include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
 #include "support/mixed_meshes.h"
+#include "support/refusal.h"
 #include "support/same_bits.h"
+#include "support/says.h"
 
 namespace trismooth::moving_quadrilaterals_test {
 
 using mixed_meshes::MixedMesh;
+using test_support::refusal;
 using Numbers = std::vector<double>;
 
 constexpr double degree = std::numbers::pi / 180;
@@ -171,45 +176,78 @@ TEST_CASE("quadrilaterals whose boundary moves as a rigid body move as one") {
   }
 }
 
-TEST_CASE("the shape of a quadrilateral relative to the reference is that of the map at its worst corner") {
-  const MixedMesh mesh(7, 6, 0.2, 9);
-  MovingMesh moving(mesh.points, mesh.elements);
-  const Numbers rest = mesh.xy();
-  Numbers xy = rest;
-  for (std::size_t i = 0; i < xy.size(); i += 2) {
-    xy[i] = 3 * rest[i] + rest[i + 1];
-    xy[i + 1] = 2 * rest[i + 1];
-  }
-  const FollowResult result = moving.follow(xy_points(xy));
-  double least = std::numeric_limits<double>::infinity();
-  double sum = 0;
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const std::vector<std::int32_t> corners = mesh.corners(e);
-    double of_element = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto sides = [&](const Numbers& of) {
-        const auto place = [&](std::size_t corner, std::size_t axis) {
-          return of[2 * static_cast<std::size_t>(corners[corner % corners.size()]) + axis];
-        };
-        return std::array{place(i + 1, 0) - place(i, 0), place(i + corners.size() - 1, 0) - place(i, 0),
-                          place(i + 1, 1) - place(i, 1), place(i + corners.size() - 1, 1) - place(i, 1)};
-      };
-      const auto [a, b, c, d] = sides(rest);
-      const auto [p, q, r, s] = sides(xy);
-      const double determinant = a * d - b * c;
-      const std::array map{(p * d - q * c) / determinant, (q * a - p * b) / determinant, (r * d - s * c) / determinant,
-                           (s * a - r * b) / determinant};
-      double squares = 0;
-      for (const double entry : map) {
-        squares += entry * entry;
-      }
-      of_element = std::min(of_element, 2 * (map[0] * map[3] - map[1] * map[2]) / squares);
+TEST_CASE("the shape of an element relative to the reference is that of the map at its worst corner") {
+  for (const std::uint64_t thirds : {0U, 1U, 3U}) {
+    const MixedMesh mesh(7, 6, 0.2, 9, thirds);
+    MovingMesh moving(mesh.points, mesh.elements);
+    const Numbers rest = mesh.xy();
+    Numbers xy = rest;
+    for (std::size_t i = 0; i < xy.size(); i += 2) {
+      xy[i] = 3 * rest[i] + rest[i + 1];
+      xy[i + 1] = 2 * rest[i + 1];
     }
-    least = std::min(least, of_element);
-    sum += of_element;
+    const FollowResult result = moving.follow(xy_points(xy));
+    double least = std::numeric_limits<double>::infinity();
+    double sum = 0;
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      const std::vector<std::int32_t> corners = mesh.corners(e);
+      double of_element = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto sides = [&](const Numbers& of) {
+          const auto place = [&](std::size_t corner, std::size_t axis) {
+            return of[2 * static_cast<std::size_t>(corners[corner % corners.size()]) + axis];
+          };
+          return std::array{place(i + 1, 0) - place(i, 0), place(i + corners.size() - 1, 0) - place(i, 0),
+                            place(i + 1, 1) - place(i, 1), place(i + corners.size() - 1, 1) - place(i, 1)};
+        };
+        const auto [a, b, c, d] = sides(rest);
+        const auto [p, q, r, s] = sides(xy);
+        const double determinant = a * d - b * c;
+        const std::array map{(p * d - q * c) / determinant, (q * a - p * b) / determinant,
+                             (r * d - s * c) / determinant, (s * a - r * b) / determinant};
+        double squares = 0;
+        for (const double entry : map) {
+          squares += entry * entry;
+        }
+        of_element = std::min(of_element, 2 * (map[0] * map[3] - map[1] * map[2]) / squares);
+      }
+      least = std::min(least, of_element);
+      sum += of_element;
+    }
+    CHECK(result.min_relative_shape == Approx(least));
+    CHECK(result.mean_relative_shape == Approx(sum / static_cast<double>(mesh.elements.size())));
   }
-  CHECK(result.min_relative_shape == Approx(least));
-  CHECK(result.mean_relative_shape == Approx(sum / static_cast<double>(mesh.elements.size())));
+}
+
+TEST_CASE("what is no mesh is refused as smooth() refuses it, and what it takes is taken") {
+  const auto refused_alike = [](const MixedMesh& mesh) {
+    Numbers xy = mesh.xy();
+    const std::string said = refusal([&] { smooth(xy_points(xy), mesh.elements); });
+    CHECK(refusal([&] { (void)MovingMesh(mesh.points, mesh.elements); }) == said);
+    return said;
+  };
+  const MixedMesh mesh(5, 4, 0.2, 3, 0);
+  MixedMesh not_in_turn = mesh;
+  std::swap(not_in_turn.elements[7][1], not_in_turn.elements[7][2]);
+  CHECK(says(refused_alike(not_in_turn), "a quadrilateral whose corners are not listed in turn"));
+  MixedMesh repeats = mesh;
+  repeats.elements[7][2] = repeats.elements[7][0];
+  CHECK(says(refused_alike(repeats), "element 7 repeats a vertex"));
+  // Where nothing beside it contradicts it, it is inverted, which both count.
+  MixedMesh alone(1, 1, 0, 1, 0);
+  std::swap(alone.elements[0][1], alone.elements[0][2]);
+  Numbers xy = alone.xy();
+  CHECK(smooth(xy_points(xy), alone.elements).inverted == 1);
+  const FollowResult result = MovingMesh(alone.points, alone.elements).follow(xy_points(xy));
+  CHECK(result.smoothing.inverted == 1);
+  CHECK_FALSE(result.is_valid());
+  // Without elements there is nothing to do.
+  MixedMesh none = mesh;
+  none.elements.clear();
+  CHECK(refused_alike(none) == "none");
+  xy = none.xy();
+  CHECK(MovingMesh(none.points, none.elements).follow(xy_points(xy)).smoothing.moved_vertices == 0);
+  CHECK(same_bits(xy, none.xy()));
 }
 
 TEST_CASE("what a boundary makes of quadrilaterals that no place mends is counted and named") {
