@@ -39,6 +39,11 @@ std::string numbering_text(std::int64_t vertex_count) {
                            : "; vertices are numbered from 0 to " + std::to_string(vertex_count - 1);
 }
 
+std::string no_element_text(std::size_t element, std::size_t nodes) {
+  return "element " + std::to_string(element) + " has " + std::to_string(nodes) +
+         " nodes before the first -1: 3, 4, 6, 8 and 9 are possible, and nothing behind them";
+}
+
 void throw_no_such_vertex(std::int64_t element, const std::string& vertex, std::int64_t vertex_count,
                           std::string_view name) {
   throw MeshError(std::string(name) + " " + std::to_string(element) + " names vertex " + vertex +

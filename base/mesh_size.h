@@ -25,4 +25,7 @@ std::string numbering_text(std::int64_t vertex_count);
 [[noreturn]] void throw_no_such_vertex(std::int64_t element, const std::string& vertex, std::int64_t vertex_count,
                                        std::string_view name = "triangle");
 
+/// "element 3 has 5 nodes before the first -1: ...": the complaint about a row of ElementNodes that is no element.
+std::string no_element_text(std::size_t element, std::size_t nodes);
+
 }  // namespace trismooth

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -49,7 +50,9 @@ struct Overlap {
   /// The elements, for as long as they are there. Local.
   ElementList elements() const { return listed.list(); }
   /// Whether this rank owns the first vertex of an element: one of the ranks that have it does. Local.
-  bool counts(std::size_t element) const { return is_own(std::ranges::min(elements()[element])); }
+  bool counts(std::size_t element) const { return counts(elements()[element]); }
+  /// Likewise, by its corners.
+  bool counts(std::span<const std::int32_t> corners) const { return is_own(std::ranges::min(corners)); }
   /// Whether this rank owns a vertex of the overlap. Local.
   bool is_own(std::int32_t v) const { return part.ghosts[static_cast<std::size_t>(v)] == 0; }
   /// Vertices of the overlap, ghosts among them. Local.

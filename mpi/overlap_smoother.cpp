@@ -365,7 +365,7 @@ SmoothingResult OverlapSmoother::smoothed_in_pieces(std::span<Point2<double>> mi
   overlap_.elements().visit([&](const auto& elements) {
     count_invalid(
         elements, reversed_, [&](std::int32_t v) { return frame.enter(mine[v]); },
-        [&](std::size_t t) { return overlap_.is_own(std::ranges::min(corners_of(elements[t]))); }, *workers_, result);
+        [&](std::size_t t) { return overlap_.counts(corners_of(elements[t])); }, *workers_, result);
   });
   result.reverted_vertices = communicator_->sum(result.reverted_vertices);
   result.inverted = communicator_->sum(result.inverted);

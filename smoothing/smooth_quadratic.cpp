@@ -78,8 +78,7 @@ ListedElements listed_elements(std::span<const ElementNodes> elements, std::int6
     const std::size_t corners = corners_of_nodes(nodes.size());
     if (corners == 0 ||
         std::any_of(row.begin() + std::ssize(nodes), row.end(), [](auto v) { return v != no_corner; })) {
-      throw MeshError("element " + std::to_string(e) + " has " + std::to_string(nodes.size()) +
-                      " nodes before the first -1: 3, 4, 6, 8 and 9 are possible, and nothing behind them");
+      throw MeshError(no_element_text(e, nodes.size()));
     }
     check_nodes(nodes, e, vertex_count);
     all.push_back({row[0], row[1], row[2], corners == 4 ? row[3] : no_corner});

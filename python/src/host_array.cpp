@@ -299,8 +299,7 @@ TriangleArray::TriangleArray(const HostArray& array)
       }
       const std::size_t corners = corners_of_nodes(count);
       if (corners == 0 || behind < nodes_) {
-        throw MeshError("triangles: element " + std::to_string(element) + " has " + std::to_string(count) +
-                        " nodes before the first -1: 3, 4, 6, 8 and 9 are possible, and nothing behind them");
+        throw MeshError("triangles: " + no_element_text(element, count));
       }
       has_middles_ = has_middles_ || count != corners;
       for (std::size_t k = 0; k < 4; ++k) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <tuple>
 
 #include "trismooth/base/element_list.h"
 #include "trismooth/base/machine/bulk_memory.h"
@@ -30,7 +30,7 @@ class FixedElements {
   FixedElements(const ElementList& elements, std::span<const std::uint8_t> reversed,
                 std::span<const std::uint8_t> fixed, Workers& workers, std::span<const std::uint8_t> ghosts = {}) {
     elements.visit([&]<class Corners>(std::span<const Corners> all) {
-      list_of<Corners>() = listed(all, reversed, fixed, workers, ghosts);
+      std::get<BulkVector<Corners>>(listed_) = listed(all, reversed, fixed, workers, ghosts);
     });
   }
 
@@ -51,14 +51,6 @@ class FixedElements {
   }
 
  private:
-  template <class Corners>
-  BulkVector<Corners>& list_of() {
-    if constexpr (std::same_as<Corners, Triangle>) {
-      return triangles_;
-    } else {
-      return mixed_;
-    }
-  }
   /// Those that count, in canonical order.
   template <class Corners>
   static BulkVector<Corners> listed(std::span<const Corners> elements, std::span<const std::uint8_t> reversed,
@@ -83,16 +75,16 @@ class FixedElements {
 
   template <class Position, class Visit>
   void for_quotients(const Position& position, const Visit& visit) const {
-    for (const Triangle& corners : triangles_) {
-      visit(quotient_at(corners, position));
-    }
-    for (const MixedElement& corners : mixed_) {
-      visit(quotient_at(corners, position));
-    }
+    const auto visit_all = [&](const auto& all) {
+      for (const auto& corners : all) {
+        visit(quotient_at(corners, position));
+      }
+    };
+    std::apply([&](const auto&... of_kind) { (visit_all(of_kind), ...); }, listed_);
   }
 
-  BulkVector<Triangle> triangles_;  ///< of a mesh of triangles
-  BulkVector<MixedElement> mixed_;  ///< of one with quadrilaterals
+  /// As the mesh lists its elements; the other list is empty.
+  std::tuple<BulkVector<Triangle>, BulkVector<MixedElement>> listed_;
 };
 
 }  // namespace trismooth
