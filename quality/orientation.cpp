@@ -5,6 +5,7 @@
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/quality/corner_points.h"
+#include "trismooth/quality/orientation_sign.h"
 
 namespace trismooth {
 
@@ -41,10 +42,7 @@ void for_signs(const TriangleView& view, std::int64_t begin, std::int64_t end, c
 template <class Vote>
 void for_signs(const ElementView<MixedElement>& view, std::int64_t begin, std::int64_t end, const Vote& vote) {
   for (std::int64_t e = begin; e < end; ++e) {
-    const MixedElement corners = canonical_corners(view, static_cast<std::size_t>(e));
-    const bool is_triangle = corner_count(corners) == 3;
-    vote(e, is_triangle ? shape_quotient(points_of(Triangle{corners[0], corners[1], corners[2]}, view.points))
-                        : doubled_area(points_of(corners, view.points)));
+    vote(e, orientation_sign(canonical_corners(view, static_cast<std::size_t>(e)), view.points));
   }
 }
 

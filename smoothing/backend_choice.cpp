@@ -44,9 +44,7 @@ MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<doub
 }
 
 std::string_view host_finds_quadrilaterals(const SmoothingOptions& options) {
-  return options.topology == Topology::device
-             ? "the host found the neighbours: of a mesh with quadrilaterals no device does"
-             : "";
+  return options.topology == Topology::device ? host_found_quadrilaterals : "";
 }
 
 std::string host_took_over(const DeviceError& error) {

@@ -27,8 +27,11 @@ const Backend& backend_of(const SmoothingOptions& options);
 MeshRings rings_for(const SmoothingOptions& options, std::span<const Point2<double>> local, const ElementList& elements,
                     const Constraints& constraints, const std::function<MeshRings()>& on_host);
 
-/// What the user is to know where the options want a device to find the topology of a mesh with quadrilaterals, which
-/// the host does; else empty.
+/// What the user is to know where a device would find the topology but for quadrilaterals.
+inline constexpr std::string_view host_found_quadrilaterals =
+    "the host found the neighbours: of a mesh with quadrilaterals no device does";
+
+/// host_found_quadrilaterals where the options want a device to find it; else empty.
 std::string_view host_finds_quadrilaterals(const SmoothingOptions& options);
 
 /// What the user is to know where a device has failed to find the topology and the host does it instead.

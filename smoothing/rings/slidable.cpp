@@ -7,12 +7,10 @@
 #include <iterator>
 #include <utility>
 
-#include "trismooth/base/machine/bulk_memory.h"
-#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/number_lists.h"
 #include "trismooth/base/number_places.h"
-#include "trismooth/base/prefix_sums.h"
 #include "trismooth/quality/element.h"
+#include "trismooth/smoothing/rings/near_lines.h"
 
 namespace trismooth {
 
@@ -232,32 +230,9 @@ std::vector<std::uint8_t> Slidable::flags_of_elements(std::span<const std::uint8
 
 Slidable find_slidable(const ElementList& elements, std::span<const std::uint8_t> fixed, const Constraints& constraints,
                        Workers& workers) {
-  if (constraints.slide.along == Slide::off) {
-    return {};
-  }
-  const auto reasons = [&](std::int32_t v) { return fixed[v]; };
-  const auto is_near = [&](std::int32_t v) { return is_held_by_lines(reasons(v)); };
-  const BulkVector<std::int32_t> numbers = elements.visit([&](const auto& listed) {
-    return numbers_of(
-        std::ssize(listed), [&](std::int64_t e) { return std::ranges::any_of(corners_of(listed[e]), is_near); },
-        workers);
-  });
-  const BulkVector<std::int32_t> others = numbers_of(
-      std::ssize(fixed), [&](std::int64_t v) { return is_held_otherwise(reasons(static_cast<std::int32_t>(v))); },
-      workers);
-  NearLines near{{}, {others.begin(), others.end()}};
-  near.elements.reserve(numbers.size());
-  for (const std::int32_t number : numbers) {
-    const auto e = static_cast<std::size_t>(number);
-    NearElement element{number,
-                        {no_corner, no_corner, no_corner, no_corner},
-                        {},
-                        constraints.regions.empty() ? 0 : constraints.regions[e]};
-    std::ranges::copy(elements[e], element.corners.begin());
-    std::ranges::transform(elements[e], element.reasons.begin(), reasons);
-    near.elements.push_back(element);
-  }
-  return find_slidable(std::move(near), constraints.slide);
+  return constraints.slide.along == Slide::off
+             ? Slidable{}
+             : find_slidable(near_lines(elements, fixed, constraints.regions, workers), constraints.slide);
 }
 
 void hold_otherwise(NearLines& near, std::span<const std::int32_t> vertices) {
