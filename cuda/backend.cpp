@@ -260,9 +260,8 @@ class CudaBackend final : public Backend {
                                                  std::span<const Point2<double>> local,
                                                  const SmoothingOptions& options) const override {
     options.validate();
-    if (!elements.are_triangles() && options.execution != Execution::resident) {
-      throw std::invalid_argument("execution '" + std::string(to_string(options.execution)) +
-                                  "' smooths triangles alone: quadrilaterals by execution 'resident'");
+    if (!elements.are_triangles()) {
+      require_quadrilaterals(options);
     }
     const DeviceScope scope(device_);
     require_device();

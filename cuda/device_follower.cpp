@@ -16,7 +16,7 @@
 #include "trismooth/cuda/primitives/bounding_box.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/check.h"
-#include "trismooth/cuda/topology/triangle_quotients.h"
+#include "trismooth/cuda/topology/element_quotients.h"
 #include "trismooth/cuda/uploaded_rings.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/moving/carry.h"
@@ -174,8 +174,7 @@ void DeviceFollower::smooth(Storage storage, SmoothingResult& result) {
 void DeviceFollower::look_at(FollowResult& result) {
   const LocalFrame frame = extent_.extent().frame;
   enter_frame(context_, now_.data(), count_, extent_.frame(), local_.data());
-  const InvalidCounts invalid =
-      invalid_triangles(context_, triangles(), now_.data(), extent_.frame(), reversed_.data());
+  const InvalidCounts invalid = invalid_elements(context_, triangles(), now_.data(), extent_.frame(), reversed_.data());
   result.smoothing.inverted = invalid.inverted;
   result.smoothing.degenerate = invalid.degenerate;
   mesh_.list_overlaps(

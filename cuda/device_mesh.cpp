@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <future>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,9 +15,10 @@
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/moved_from.h"
-#include "trismooth/base/triangle_topology.h"
+#include "trismooth/base/triangles_alone.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
+#include "trismooth/cuda/host_topology.h"
 #include "trismooth/cuda/host_untangling.h"
 #include "trismooth/cuda/memory_need.h"
 #include "trismooth/cuda/packing/coordinates.h"
@@ -27,6 +29,8 @@
 #include "trismooth/cuda/runtime/device_pointer.h"
 #include "trismooth/cuda/slide/sliding_options.h"
 #include "trismooth/cuda/topology/device_topology.h"
+#include "trismooth/cuda/uploaded_rings.h"
+#include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/limited.h"
 
 namespace trismooth::cuda {
@@ -37,14 +41,15 @@ namespace {
 template <class Check>
 void for_arrays(const DeviceMesh& mesh, const Check& check) {
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count);
-  const auto triangles = static_cast<std::size_t>(mesh.triangle_count);
+  const auto elements = static_cast<std::size_t>(mesh.element_count);
   const DeviceConstraints& held = mesh.constraints;
-  check(mesh.triangles, 3 * triangles, alignof(std::int32_t), "DeviceMesh::triangles");
+  check(mesh.elements, static_cast<std::size_t>(mesh.corners) * elements, alignof(std::int32_t),
+        "DeviceMesh::elements");
   check(held.fixed_ids, static_cast<std::size_t>(held.fixed_id_count), alignof(std::int32_t),
         "DeviceConstraints::fixed_ids");
   check(held.fixed, held.fixed == nullptr ? 0 : vertices, 1, "DeviceConstraints::fixed");
   check(held.other_cells, held.other_cells == nullptr ? 0 : vertices, 1, "DeviceConstraints::other_cells");
-  check(held.regions, held.regions == nullptr ? 0 : triangles, alignof(std::int32_t), "DeviceConstraints::regions");
+  check(held.regions, held.regions == nullptr ? 0 : elements, alignof(std::int32_t), "DeviceConstraints::regions");
 }
 
 /// Kernels read and write a point at once.
@@ -59,14 +64,11 @@ class Plan::Implementation {
  public:
   Implementation(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream)
       : vertex_count_(mesh.vertex_count),
-        triangle_count_(mesh.triangle_count),
-        triangles_(mesh.triangles),
         options_(options),
         context_(stream),
-        topology_(context_, mesh.vertex_count, mesh.triangle_count, mesh.triangles, mesh.constraints,
-                  neighbour_search(options.execution)),
+        topology_(find_topology(mesh)),
         slide_(mesh.constraints.slide),
-        near_(slide_.along == Slide::off ? NearLines{} : topology_.near_lines(mesh.constraints.regions)),
+        near_(slide_.along == Slide::off ? NearLines{} : topology_->near_lines(mesh.constraints.regions)),
         slidable_(find_meanwhile(near_, slide_)),
         extent_(context_) {}
 
@@ -90,10 +92,37 @@ class Plan::Implementation {
   const SmoothingOptions& options() const { return options_; }
 
   std::vector<std::uint8_t> fixed() const {
-    return download(context_, topology_.fixed(), static_cast<std::size_t>(vertex_count_));
+    return download(context_, topology_->fixed(), static_cast<std::size_t>(vertex_count_));
   }
 
  private:
+  std::unique_ptr<MeshTopology> find_topology(const DeviceMesh& mesh) {
+    const std::int32_t* triangles = mesh.elements;
+    if (mesh.corners == 4) {
+      static_assert(sizeof(MixedElement) == 4 * sizeof(std::int32_t));
+      const auto count = static_cast<std::size_t>(mesh.element_count);
+      auto elements = download(context_, reinterpret_cast<const MixedElement*>(mesh.elements), count);
+      const std::optional<std::vector<Triangle>> alone = triangles_alone(elements);
+      if (!alone) {
+        require_quadrilaterals(options_);
+        require_room(mesh, 4);
+        return std::make_unique<HostTopology>(context_, mesh.vertex_count, mesh.elements, std::move(elements),
+                                              mesh.constraints, options_.threads);
+      }
+      triangles_ = DeviceBuffer<Triangle>(context_, *alone);
+      triangles = reinterpret_cast<const std::int32_t*>(triangles_.data());
+    }
+    require_room(mesh, 3);
+    return std::make_unique<DeviceTopology>(context_, mesh.vertex_count, mesh.element_count, triangles,
+                                            mesh.constraints, neighbour_search(options_.execution));
+  }
+
+  /// `corners`: of an element at most.
+  void require_room(const DeviceMesh& mesh, std::int64_t corners) const {
+    const MeshSize size{mesh.vertex_count, mesh.vertex_count, corners * mesh.element_count, corners == 4};
+    require_memory(memory_need(size, options_) + topology_memory_need(mesh.vertex_count, mesh.element_count));
+  }
+
   /// The device has other work while the host looks for what may slide.
   static std::shared_future<Slidable> find_meanwhile(const NearLines& near, const Sliding& slide) {
     if (slide.along == Slide::off) {
@@ -126,6 +155,8 @@ class Plan::Implementation {
       result.untangling = fixed_quotient > 0 && options_.guard ? UntanglingResult{} : not_tangled(stored);
     }
     result.layers = layers_;
+    result.quadrilaterals = topology_->quadrilaterals();
+    result.backend_note = joined_notes(std::string(topology_->note()), result.backend_note);
     result.timings.prepare = preparing_ms;
     result.device_memory_bytes = static_cast<std::int64_t>(context_.peak_bytes());
     return result;
@@ -133,24 +164,19 @@ class Plan::Implementation {
 
   SmoothingResult smooth_here(Point2<double>* stored, Storage storage, double fixed_quotient) {
     SmoothingResult result = smoother_->smooth(stored, extent_.frame(), storage, fixed_quotient);
-    const InvalidCounts invalid = topology_.invalid_triangles(stored, extent_.frame());
+    const InvalidCounts invalid = topology_->invalid_elements(stored, extent_.frame());
     result.inverted = invalid.inverted;
     result.degenerate = invalid.degenerate;
     return result;
   }
 
   /// The host's part of the work.
-  HostUntangling host_untangling() {
-    static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
-    const std::vector<Triangle> triangles =
-        download(context_, reinterpret_cast<const Triangle*>(triangles_), static_cast<std::size_t>(triangle_count_));
-    return {fixed(), triangles, options_, slidable()};
-  }
+  HostUntangling host_untangling() { return {fixed(), topology_->elements().list(), options_, slidable()}; }
 
-  /// Counts what is inverted all the same: triangles without a free vertex, or those that no guard has watched.
+  /// Counts what is inverted all the same: elements without a free vertex, or those that no guard has watched.
   UntanglingResult not_tangled(const Point2<double>* stored) {
     const auto points = download(context_, stored, static_cast<std::size_t>(vertex_count_));
-    const auto reversed = download(context_, topology_.reversed(), static_cast<std::size_t>(triangle_count_));
+    const auto reversed = download(context_, topology_->reversed(), topology_->element_count());
     return host_untangling().not_tangled(reversed, points, download(context_, extent_.frame()));
   }
 
@@ -167,10 +193,10 @@ class Plan::Implementation {
 
   /// Finds the local frame, orients the mesh by its coordinates, and packs it where that is new.
   void prepare(const Point2<double>* stored, double& fixed_quotient) {
-    extent_.find(stored, vertex_count_, topology_.fixed());
+    extent_.find(stored, vertex_count_, topology_->fixed());
     DeviceBuffer<Point2<double>> local(context_, static_cast<std::size_t>(vertex_count_));
     enter_frame(context_, stored, vertex_count_, extent_.frame(), local.data());
-    if (topology_.orient(local.data())) {
+    if (topology_->orient(local.data())) {
       smoother_.reset();
     }
     // Not asked before all that waits for the device anyway. A mesh that is refused may have another orientation.
@@ -184,10 +210,10 @@ class Plan::Implementation {
     }
     CallLimit::look();
     if (options_.measures_shape() || options_.untangles()) {
-      fixed_quotient = topology_.smallest_fixed_quotient(local.data());
+      fixed_quotient = topology_->smallest_fixed_quotient(local.data());
     }
     if (smoother_ == nullptr) {
-      smoother_ = make_device_smoother(context_, topology_.rings(), std::move(local), options_);
+      smoother_ = make_device_smoother(context_, topology_->rings(), std::move(local), options_);
       if (slidable().any() && smoother_->has_free_vertices()) {
         smoother_->slide_on(slidable(), reversed_of_slidable());
       }
@@ -198,7 +224,7 @@ class Plan::Implementation {
   void find_layers(const Point2<double>* local) {
     std::vector<std::int32_t> held;
     const bool slides = slide_.along != Slide::off;
-    layers_ = topology_.hold_layers(local, options_.used_layers(), slides, held);
+    layers_ = topology_->hold_layers(local, options_.used_layers(), slides, held);
     if (!held.empty() && slides) {
       slidable_.wait();
       hold_otherwise(near_, held);
@@ -208,15 +234,14 @@ class Plan::Implementation {
 
   std::vector<std::uint8_t> reversed_of_slidable() {
     const DeviceBuffer<std::int32_t> numbers(context_, slidable().element_numbers);
-    return gather_bytes(context_, topology_.reversed(), numbers);
+    return gather_bytes(context_, topology_->reversed(), numbers);
   }
 
   std::int32_t vertex_count_;
-  std::int32_t triangle_count_;
-  const std::int32_t* triangles_;  ///< the caller's, on the device
   SmoothingOptions options_;
   Context context_;
-  DeviceTopology topology_;
+  DeviceBuffer<Triangle> triangles_;  ///< where the caller has triangles alone in a list of four numbers each
+  std::unique_ptr<MeshTopology> topology_;
   Sliding slide_;   ///< it names no vertices
   NearLines near_;  ///< what it takes to find what may slide
   std::shared_future<Slidable> slidable_;
@@ -231,7 +256,11 @@ Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t
   if (options.proposal) {
     throw std::invalid_argument("a proposal is a function of the host: smooth() on the CPU takes it");
   }
-  check_mesh_size(mesh.vertex_count, mesh.triangle_count);
+  if (mesh.corners != 3 && mesh.corners != 4) {
+    throw std::invalid_argument("DeviceMesh::corners is " + std::to_string(mesh.corners) +
+                                "; expected 3, or 4 with quadrilaterals");
+  }
+  check_mesh_size(mesh.vertex_count, mesh.element_count, mesh.corners);
   const Sliding& slide = mesh.constraints.slide;
   slide.validate();
   if (slide.names_vertices()) {
@@ -251,8 +280,6 @@ Plan::Plan(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t
   for_arrays(mesh, [](const void* array, std::size_t count, std::size_t /*alignment*/, std::string_view name) {
     require_on_device(array, count, name);
   });
-  const MeshSize size{mesh.vertex_count, mesh.vertex_count, 3 * std::int64_t{mesh.triangle_count}};
-  require_memory(memory_need(size, options) + topology_memory_need(mesh.vertex_count, mesh.triangle_count));
   implementation_ = planned(options, [&] { return std::make_unique<Implementation>(mesh, options, stream); });
 }
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
+#include <string>
 
 #include "trismooth/base/machine/bulk_memory.h"
 #include "trismooth/base/point2.h"
@@ -16,6 +18,13 @@ void require_room_for(const OneRings& rings, const SmoothingOptions& options) {
   const MeshSize size{rings.vertex_count(), rings.vertex_count(), std::ssize(rings.neighbours),
                       !rings.opposites.empty()};
   require_memory(memory_need(size, options) + static_cast<std::size_t>(size.vertices) * sizeof(Point2<double>));
+}
+
+void require_quadrilaterals(const SmoothingOptions& options) {
+  if (options.execution != Execution::resident) {
+    throw std::invalid_argument("execution '" + std::string(to_string(options.execution)) +
+                                "' smooths triangles alone: quadrilaterals by execution 'resident'");
+  }
 }
 
 DeviceRings uploaded(HostCopier& copier, const OneRings& rings) {

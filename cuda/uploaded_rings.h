@@ -12,6 +12,9 @@ namespace trismooth::cuda {
 /// them.
 void require_room_for(const OneRings& rings, const SmoothingOptions& options);
 
+/// Throws std::invalid_argument for the executions that smooth triangles alone.
+void require_quadrilaterals(const SmoothingOptions& options);
+
 /// One-rings of the host on the device.
 DeviceRings uploaded(HostCopier& copier, const OneRings& rings);
 

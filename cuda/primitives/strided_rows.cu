@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -36,12 +37,14 @@ template <class T>
 struct GatherIntegers {
   StridedRows rows;
   std::int32_t* packed;
+  std::int32_t of_largest;
 
   __device__ void operator()(std::uint32_t i) const {
     const T number = *reinterpret_cast<const T*>(place(rows, i));
     const auto narrow = static_cast<std::int32_t>(number);
     const bool has_place = static_cast<T>(narrow) == number && (std::is_signed_v<T> || narrow >= 0);
-    packed[i] = has_place ? narrow : no_place_in_32_bits;
+    const bool is_largest = !std::is_signed_v<T> && number == std::numeric_limits<T>::max();
+    packed[i] = has_place ? narrow : is_largest ? of_largest : no_place_in_32_bits;
   }
 };
 
@@ -54,8 +57,9 @@ std::uint32_t number_count(const StridedRows& rows) {
 }
 
 template <class T>
-void gather_integers_of(const Context& context, const StridedRows& rows, std::int32_t* packed) {
-  for_each(context, number_count(rows), GatherIntegers<T>{rows, packed});
+void gather_integers_of(const Context& context, const StridedRows& rows, std::int32_t* packed,
+                        std::int32_t of_largest) {
+  for_each(context, number_count(rows), GatherIntegers<T>{rows, packed, of_largest});
 }
 
 }  // namespace
@@ -77,23 +81,23 @@ template void scatter_rows(const Context&, const float*, const StridedRows&);
 template void scatter_rows(const Context&, const double*, const StridedRows&);
 
 void gather_integers(const Context& context, const StridedRows& rows, bool is_signed, std::size_t bytes_of_each,
-                     std::int32_t* packed) {
+                     std::int32_t* packed, std::int32_t of_largest) {
   switch (bytes_of_each) {
     case 1:
-      is_signed ? gather_integers_of<std::int8_t>(context, rows, packed)
-                : gather_integers_of<std::uint8_t>(context, rows, packed);
+      is_signed ? gather_integers_of<std::int8_t>(context, rows, packed, of_largest)
+                : gather_integers_of<std::uint8_t>(context, rows, packed, of_largest);
       break;
     case 2:
-      is_signed ? gather_integers_of<std::int16_t>(context, rows, packed)
-                : gather_integers_of<std::uint16_t>(context, rows, packed);
+      is_signed ? gather_integers_of<std::int16_t>(context, rows, packed, of_largest)
+                : gather_integers_of<std::uint16_t>(context, rows, packed, of_largest);
       break;
     case 4:
-      is_signed ? gather_integers_of<std::int32_t>(context, rows, packed)
-                : gather_integers_of<std::uint32_t>(context, rows, packed);
+      is_signed ? gather_integers_of<std::int32_t>(context, rows, packed, of_largest)
+                : gather_integers_of<std::uint32_t>(context, rows, packed, of_largest);
       break;
     default:
-      is_signed ? gather_integers_of<std::int64_t>(context, rows, packed)
-                : gather_integers_of<std::uint64_t>(context, rows, packed);
+      is_signed ? gather_integers_of<std::int64_t>(context, rows, packed, of_largest)
+                : gather_integers_of<std::uint64_t>(context, rows, packed, of_largest);
       break;
   }
 }

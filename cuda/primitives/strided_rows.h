@@ -27,9 +27,9 @@ template <class T>
 void scatter_rows(const Context& context, const T* packed, const StridedRows& rows);
 
 /// gather_rows() for integers of any type, as int32. One that has no place there becomes
-/// `no_place_in_32_bits`, which is none of any vertices.
+/// `no_place_in_32_bits`, which is none of any vertices; `of_largest`: what the largest unsigned one becomes then.
 inline constexpr std::int32_t no_place_in_32_bits = INT32_MIN;
 void gather_integers(const Context& context, const StridedRows& rows, bool is_signed, std::size_t bytes_of_each,
-                     std::int32_t* packed);
+                     std::int32_t* packed, std::int32_t of_largest = no_place_in_32_bits);
 
 }  // namespace trismooth::cuda

@@ -14,7 +14,6 @@
 #include "trismooth/cuda/topology/flat_triangles.h"
 #include "trismooth/cuda/topology/near_lines.h"
 #include "trismooth/cuda/topology/ring_building.h"
-#include "trismooth/cuda/topology/triangle_quotients.h"
 #include "trismooth/smoothing/constraints.h"
 #include "trismooth/smoothing/errors.h"
 #include "trismooth/smoothing/layers/layers.h"
@@ -39,44 +38,43 @@ void throw_host_error(const Context& context, std::int32_t vertex_count, const T
 
 DeviceTopology::DeviceTopology(Context& context, std::int32_t vertex_count, std::int32_t triangle_count,
                                const std::int32_t* triangles, const DeviceConstraints& constraints, NeighbourSearch way)
-    : context_(&context), triangles_{triangles, triangle_count} {
+    : ListTopology(context, {triangles, triangle_count}) {
   check_mesh_size(vertex_count, triangle_count);
   DeviceBuffer<Findings> device_findings(context, 1);
   device_findings.fill_bytes(0);
   const auto found = [&] {
     const Findings findings = download(context, device_findings.data());
     if (findings.faults != 0) {
-      throw_host_error(context, vertex_count, triangles_, constraints);
+      throw_host_error(context, vertex_count, list_, constraints);
     }
     return findings;
   };
   // What is wrong with triangles is asked for later: they are left out, and each question costs a wait.
-  corners_ = find_neighbours(context, vertex_count, triangles_, way, device_findings.data());
+  corners_ = find_neighbours(context, vertex_count, list_, way, device_findings.data());
   fixed_ = DeviceBuffer<std::uint8_t>(context, static_cast<std::size_t>(vertex_count));
   DeviceBuffer<std::uint32_t> forest_words(context, static_cast<std::size_t>(triangle_count));
   const ParityForest forest{forest_words.data()};
-  determine_constraints(context, triangles_, corners_.view(), constraints, forest, fixed_.data(),
-                        device_findings.data());
+  determine_constraints(context, list_, corners_.view(), constraints, forest, fixed_.data(), device_findings.data());
   const Findings neighbourhoods = found();
   if (neighbourhoods.large_vertices > 0) {
-    large_fans_ = find_large_fans(context, triangles_, corners_.view(), neighbourhoods, constraints.regions, forest,
+    large_fans_ = find_large_fans(context, list_, corners_.view(), neighbourhoods, constraints.regions, forest,
                                   fixed_.data(), device_findings.data());
     found();
   }
   components_ = number_components(context, std::move(forest_words));
 }
 
-NearLines DeviceTopology::near_lines(const std::int32_t* regions) const {
-  return cuda::near_lines(*context_, triangles_, vertex_count(), fixed_.data(), regions);
+NearLines DeviceTopology::near_lines(const std::int32_t* regions) {
+  return cuda::near_lines(*context_, list_, vertex_count(), fixed_.data(), regions);
 }
 
-LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers layers, bool slides,
+LayersResult DeviceTopology::hold_layers(const Point2<double>* local_points, Layers layers, bool slides,
                                          std::vector<std::int32_t>& held) {
   held.clear();
   if (layers == Layers::smooth) {
     return {};
   }
-  const LayerCandidates candidates(*context_, triangles_, vertex_count(), points, reversed());
+  const LayerCandidates candidates(*context_, list_, vertex_count(), local_points, reversed());
   Workers workers(0);
   LayerSearch found =
       search_layers([&](int choices) { return candidates.after(choices); }, vertex_count(), layers, workers);
@@ -95,21 +93,13 @@ LayersResult DeviceTopology::hold_layers(const Point2<double>* points, Layers la
   return found.result;
 }
 
-bool DeviceTopology::orient(const Point2<double>* local_points) {
-  return cuda::orient(*context_, triangles_, local_points, components_, orientation_);
+DeviceRings DeviceTopology::rings() {
+  return build_rings(*context_, list_, corners_.view(), large_fans_, fixed(), reversed());
 }
 
-DeviceRings DeviceTopology::rings() const {
-  return build_rings(*context_, triangles_, corners_.view(), large_fans_, fixed_.data(), orientation_.reversed.data());
-}
-
-double DeviceTopology::smallest_fixed_quotient(const Point2<double>* local_points) const {
-  return cuda::smallest_fixed_quotient(*context_, triangles_, local_points, orientation_.reversed.data(),
-                                       fixed_.data());
-}
-
-InvalidCounts DeviceTopology::invalid_triangles(const Point2<double>* stored, const LocalFrame* frame) const {
-  return cuda::invalid_triangles(*context_, triangles_, stored, frame, orientation_.reversed.data());
+OwnElements DeviceTopology::elements() const {
+  static_assert(sizeof(Triangle) == 3 * sizeof(std::int32_t));
+  return download(*context_, reinterpret_cast<const Triangle*>(list_.vertices), element_count());
 }
 
 }  // namespace trismooth::cuda

@@ -6,22 +6,23 @@
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/topology/component_votes.cuh"
 #include "trismooth/cuda/topology/orientation.h"
-#include "trismooth/quality/element.h"
+#include "trismooth/quality/orientation_sign.h"
 
 namespace trismooth::cuda {
 
 namespace {
 
-/// A triangle's vote on whether its component is listed counter-clockwise, as its first triangle is listed.
+/// An element's vote on whether its component is listed counter-clockwise, as its first element is listed.
+template <class List>
 struct SignVotes {
-  TriangleList triangles;
+  List elements;
   const Point2<double>* points;
   const std::uint32_t* words;
 
-  TRISMOOTH_HOST_DEVICE Vote operator()(std::uint32_t t) const {
-    const std::uint32_t word = words[t];
-    const double quotient = shape_quotient(points_of(canonical_corners(triangles[t], (word & 1U) != 0), points));
-    return {word >> 1U, quotient > 0, quotient < 0, quotient != 0, !(quotient > 0)};
+  TRISMOOTH_HOST_DEVICE Vote operator()(std::uint32_t e) const {
+    const std::uint32_t word = words[e];
+    const double sign = orientation_sign(canonical_corners(elements[e], (word & 1U) != 0), points);
+    return {word >> 1U, sign > 0, sign < 0, sign != 0, !(sign > 0)};
   }
 };
 
@@ -41,32 +42,33 @@ struct TurnComponent {
   }
 };
 
-struct OrientTriangle {
+struct OrientElement {
   const std::uint32_t* words;
   const std::uint8_t* turned;
   std::uint8_t* reversed;
 
-  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t t) const {
-    const std::uint32_t word = words[t];
-    reversed[t] = static_cast<std::uint8_t>((word & 1U) ^ turned[word >> 1U]);
+  TRISMOOTH_HOST_DEVICE void operator()(std::uint32_t e) const {
+    const std::uint32_t word = words[e];
+    reversed[e] = static_cast<std::uint8_t>((word & 1U) ^ turned[word >> 1U]);
   }
 };
 
 }  // namespace
 
-bool orient(Context& context, const TriangleList& triangles, const Point2<double>* points, const Components& components,
+template <class List>
+bool orient(Context& context, const List& elements, const Point2<double>* points, const Components& components,
             DeviceOrientation& orientation) {
-  const auto triangle_count = static_cast<std::uint32_t>(triangles.count);
+  const auto element_count = static_cast<std::uint32_t>(elements.count);
   const auto component_count = static_cast<std::size_t>(components.count);
   const bool is_first = !orientation.is_known;
-  if (triangle_count == 0) {
+  if (element_count == 0) {
     orientation.is_known = true;
     return is_first;
   }
   if (is_first) {
     orientation.turned = DeviceBuffer<std::uint8_t>(context, component_count);
     orientation.turned.fill_bytes(0);
-    orientation.reversed = DeviceBuffer<std::uint8_t>(context, triangle_count);
+    orientation.reversed = DeviceBuffer<std::uint8_t>(context, element_count);
   }
   const std::uint32_t* const words = components.words.data();
   DeviceBuffer<std::uint32_t> changed(context, 1);
@@ -77,16 +79,19 @@ bool orient(Context& context, const TriangleList& triangles, const Point2<double
     margins.fill_bytes(0);
     tie_breakers.fill_bytes(0xFF);
     const VoteCounts counts{margins.data(), tie_breakers.data()};
-    count_votes(context, triangle_count, SignVotes{triangles, points, words}, counts);
+    count_votes(context, element_count, SignVotes<List>{elements, points, words}, counts);
     for_each(context, static_cast<std::uint32_t>(component_count),
              TurnComponent{counts, orientation.turned.data(), changed.data()});
   }
   if (download(context, changed.data()) == 0 && !is_first) {
     return false;
   }
-  for_each(context, triangle_count, OrientTriangle{words, orientation.turned.data(), orientation.reversed.data()});
+  for_each(context, element_count, OrientElement{words, orientation.turned.data(), orientation.reversed.data()});
   orientation.is_known = true;
   return true;
 }
+
+template bool orient(Context&, const TriangleList&, const Point2<double>*, const Components&, DeviceOrientation&);
+template bool orient(Context&, const MixedList&, const Point2<double>*, const Components&, DeviceOrientation&);
 
 }  // namespace trismooth::cuda

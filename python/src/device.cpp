@@ -44,8 +44,8 @@ bool is_integer(const DeviceArray& array) {
   return array.kind() == 'i' || array.kind() == 'u';
 }
 
-/// A smoothing plan over arrays on a device. It keeps those that it reads again: the triangles, where they are int32
-/// one behind the other; all others are copied on the device.
+/// A smoothing plan over arrays on a device. It keeps those that it reads again: the elements, where they are int32 one
+/// behind the other; all others are copied on the device.
 class DevicePlan {
  public:
   DevicePlan(nb::handle triangles_capsule, std::int64_t vertex_count, const nb::dict& constraints,
@@ -56,8 +56,13 @@ class DevicePlan {
     if (!is_integer(triangles_)) {
       triangles_.raise_type("integers are needed, not " + triangles_.type_text());
     }
-    if (triangles_.dimensions() != 2 || triangles_.extent(1) != 3) {
-      triangles_.raise_value("shape " + triangles_.shape_text() + "; expected (M, 3) on a CUDA device");
+    if (triangles_.dimensions() != 2 || (triangles_.extent(1) != 3 && triangles_.extent(1) != 4)) {
+      triangles_.raise_value("shape " + triangles_.shape_text() +
+                             "; expected (M, 3), or (M, 4) with quadrilaterals, on a CUDA device");
+    }
+    mesh_.corners = static_cast<std::int32_t>(triangles_.extent(1));
+    if (mesh_.corners == 4) {
+      require_no_corner(triangles_);
     }
     CallOptions call = parse_options(arguments);
     SmoothingOptions& options = call.smoothing;
@@ -67,7 +72,7 @@ class DevicePlan {
     interruption_ = &making;
     Interruption::watch(options, interruption_);
     mesh_.vertex_count = checked_count(vertex_count, "points");
-    mesh_.triangle_count = checked_count(static_cast<std::int64_t>(triangles_.extent(0)), "triangles");
+    mesh_.element_count = checked_count(static_cast<std::int64_t>(triangles_.extent(0)), "triangles");
     const cuda::DeviceScope scope(device_);
     context_ = std::make_unique<cuda::Context>(stream_of(stream));
     hold(constraints);
@@ -93,7 +98,7 @@ class DevicePlan {
   }
 
   std::int64_t vertex_count() const { return mesh_.vertex_count; }
-  std::int64_t triangle_count() const { return mesh_.triangle_count; }
+  std::int64_t triangle_count() const { return mesh_.element_count; }
   std::size_t copied_bytes() const { return context_->peak_bytes(); }
 
  private:
@@ -106,14 +111,14 @@ class DevicePlan {
 
   void gather_triangles() {
     if (triangles_.kind() == 'i' && triangles_.item_size() == sizeof(std::int32_t) &&
-        triangles_.is_packed(3, sizeof(std::int32_t))) {
-      mesh_.triangles = reinterpret_cast<const std::int32_t*>(triangles_.data());
+        triangles_.is_packed(triangles_.extent(1), sizeof(std::int32_t))) {
+      mesh_.elements = reinterpret_cast<const std::int32_t*>(triangles_.data());
       return;
     }
-    triangle_numbers_ = cuda::DeviceBuffer<std::int32_t>(*context_, 3 * triangles_.extent(0));
-    cuda::gather_integers(*context_, triangles_.rows(3), triangles_.kind() == 'i', triangles_.item_size(),
-                          triangle_numbers_.data());
-    mesh_.triangles = triangle_numbers_.data();
+    triangle_numbers_ = cuda::DeviceBuffer<std::int32_t>(*context_, triangles_.extent(0) * triangles_.extent(1));
+    cuda::gather_integers(*context_, triangles_.rows(mesh_.corners), triangles_.kind() == 'i', triangles_.item_size(),
+                          triangle_numbers_.data(), mesh_.corners == 4 ? no_corner : cuda::no_place_in_32_bits);
+    mesh_.elements = triangle_numbers_.data();
   }
 
   void hold(const nb::dict& constraints) {
@@ -123,7 +128,7 @@ class DevicePlan {
       if (!is_integer(labels)) {
         labels.raise_type("integers are needed on a CUDA device, not " + labels.type_text());
       }
-      require_list(labels, mesh_.triangle_count, "triangle");
+      require_list(labels, mesh_.element_count, "triangle");
       region_numbers_ = cuda::DeviceBuffer<std::int32_t>(*context_, labels.extent(0));
       cuda::gather_integers(*context_, labels.rows(1), labels.kind() == 'i', labels.item_size(),
                             region_numbers_.data());

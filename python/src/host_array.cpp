@@ -275,10 +275,8 @@ TriangleArray::TriangleArray(const HostArray& array)
                       "or (M, 9) with quadrilaterals of eight or nine" +
                       transposed(array, "triangles", 3));
   }
-  if (array.extent(1) != 3 && array.extent(1) != 6 && array.kind() == 'u' &&
-      array.item_size() < sizeof(std::uint32_t)) {
-    array.raise_type(
-        "unsigned integers of 8 or 16 bits have no -1, which is behind the last one of a triangle: int32 has");
+  if (array.extent(1) != 3 && array.extent(1) != 6) {
+    require_no_corner(array);
   }
   size_ = array.extent(0);
   nodes_ = array.extent(1);

@@ -83,6 +83,15 @@ class PointArray {
 /// The rows of `numbers`, which lie as PointArray::copy_to() gives them.
 PointView packed_points(std::byte* numbers, std::size_t size, std::size_t components, Storage storage);
 
+/// Raises TypeError for an array of integers, of the host or of a device, whose type has no room for no_corner.
+template <class Array>
+void require_no_corner(const Array& array) {
+  if (array.kind() == 'u' && array.item_size() < sizeof(std::uint32_t)) {
+    array.raise_type(
+        "unsigned integers of 8 or 16 bits have no -1, which is behind the last one of a triangle: int32 has");
+  }
+}
+
 /// Vertex numbers of elements, of any integer type, as the library takes them: three of triangles; four of triangles
 /// and quadrilaterals, -1 behind those of a triangle; six of triangles with middles; eight or nine of any of these,
 /// with -1 behind them (see ElementNodes).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -47,13 +48,33 @@ TEST_CASE("pointers that are null or out of alignment are refused by name, witho
     change(changed);
     return refusal([&] { Plan(changed, {}); });
   };
-  CHECK(with([](DeviceMesh& m) { m.triangles = at<const std::int32_t>(4097); }) ==
-        "DeviceMesh::triangles is not aligned to 4 bytes, as it must be on a device");
-  CHECK(with([](DeviceMesh& m) { m.triangles = nullptr; }) == "DeviceMesh::triangles is a null pointer");
+  CHECK(with([](DeviceMesh& m) { m.elements = at<const std::int32_t>(4097); }) ==
+        "DeviceMesh::elements is not aligned to 4 bytes, as it must be on a device");
+  CHECK(with([](DeviceMesh& m) { m.elements = nullptr; }) == "DeviceMesh::elements is a null pointer");
+  CHECK(with([](DeviceMesh& m) {
+          m.corners = 4;
+          m.elements = nullptr;
+        }) == "DeviceMesh::elements is a null pointer");
+  for (const std::int32_t corners : {-3, 0, 2, 5}) {
+    CHECK(with([corners](DeviceMesh& m) { m.corners = corners; }) ==
+          "DeviceMesh::corners is " + std::to_string(corners) + "; expected 3, or 4 with quadrilaterals");
+  }
   CHECK(with([](DeviceMesh& m) { m.constraints.regions = at<const std::int32_t>(4098); }) ==
         "DeviceConstraints::regions is not aligned to 4 bytes, as it must be on a device");
   CHECK(with([](DeviceMesh& m) { m.constraints.fixed_id_count = 2; }) ==
         "DeviceConstraints::fixed_ids is a null pointer");
   CHECK(with([](DeviceMesh& m) { m.constraints.fixed_id_count = -1; }) ==
         "DeviceConstraints::fixed_id_count is negative");
+}
+
+TEST_CASE("more elements than can be numbered are refused, of four numbers each sooner than of three") {
+  DeviceMesh mesh{5, 536870912, at<const std::int32_t>(4096)};
+  mesh.corners = 4;
+  CHECK_THROWS_WITH(Plan(mesh, {}), "more than 536870911 elements");
+  mesh.element_count = -1;
+  CHECK_THROWS_WITH(Plan(mesh, {}), "the number of elements is negative");
+  mesh.corners = 3;
+  CHECK_THROWS_WITH(Plan(mesh, {}), "the number of triangles is negative");
+  mesh.element_count = 715827883;
+  CHECK_THROWS_WITH(Plan(mesh, {}), "more than 715827882 triangles");
 }

@@ -218,7 +218,7 @@ TEST_CASE("pointers that no kernel could use are refused by name before one runs
     const auto indices = mesh.indices();
     CHECK(refusal([&] {
             cuda::Plan({mesh.vertex_count(), triangle_count, indices.data(), {}}, {});
-          }) == "DeviceMesh::triangles" + host_message);
+          }) == "DeviceMesh::elements" + host_message);
     const std::vector<std::uint8_t> flags(mesh.points.size());
     cuda::DeviceMesh held = view;
     held.constraints.fixed = flags.data();
@@ -228,10 +228,10 @@ TEST_CASE("pointers that no kernel could use are refused by name before one runs
           const auto* const odd =
               reinterpret_cast<const std::int32_t*>(reinterpret_cast<const std::byte*>(triangles.data()) + 2);
           cuda::Plan({mesh.vertex_count(), triangle_count, odd, {}}, {});
-        }) == "DeviceMesh::triangles is not aligned to 4 bytes, as it must be on a device");
+        }) == "DeviceMesh::elements is not aligned to 4 bytes, as it must be on a device");
   CHECK(refusal([&] {
           cuda::Plan({mesh.vertex_count(), triangle_count, nullptr, {}}, {});
-        }) == "DeviceMesh::triangles is a null pointer");
+        }) == "DeviceMesh::elements is a null pointer");
   // Nobody has run into anything: the same plan and stream go on. Two numbers further on is aligned.
   shifted.insert(shifted.begin(), 0.0);
   cuda::DeviceBuffer<double> aligned(context, shifted);

@@ -17,7 +17,6 @@
 #include "trismooth/base/rounding.h"
 #include "trismooth/base/triangle_topology.h"
 #include "trismooth/cuda/backend.h"
-#include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/packing/colouring.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/runtime/context.h"
@@ -27,6 +26,7 @@
 #include "trismooth/smoothing/smooth.h"
 
 #include "catch.h"
+#include "mixed_runs.h"
 #include "smoothing_runs.h"
 #include "support/hostile_meshes.h"
 #include "support/mixed_meshes.h"
@@ -34,6 +34,12 @@
 
 using namespace trismooth;
 using mixed_meshes::MixedMesh;
+using mixed_runs::all_ways;
+using mixed_runs::methods;
+using mixed_runs::name_of;
+using mixed_runs::random_meshes;
+using mixed_runs::require_of_device;
+using mixed_runs::run;
 using smoothing_runs::forms;
 using smoothing_runs::precisions;
 using smoothing_runs::require_same;
@@ -41,27 +47,6 @@ using smoothing_runs::Run;
 using test_support::refusal;
 
 namespace {
-
-constexpr auto methods = trismooth::values_of<Method>();
-
-Run run(const MixedMesh& mesh, const SmoothingOptions& options, const Constraints& constraints = {},
-        Storage storage = Storage::float64) {
-  Run run{mesh.xy(), {}};
-  run.result = plan(mesh.vertex_count(), mesh.elements, constraints, options).smooth(run.xy, storage);
-  return run;
-}
-
-void require_of_device(const Run& found, const Run& expected) {
-  REQUIRE(found.result.backend == "cuda");
-  REQUIRE(found.result.device == cuda::survey_devices().devices.front().name);
-  REQUIRE((found.result.kernel_launches > 0) == (expected.result.free_vertices > 0));
-  REQUIRE(found.result.colours == expected.result.colours);
-  REQUIRE(found.result.quadrilaterals == expected.result.quadrilaterals);
-  REQUIRE(found.result.layers.kept == expected.result.layers.kept);
-  REQUIRE(found.result.inverted == expected.result.inverted);
-  REQUIRE(found.result.degenerate == expected.result.degenerate);
-  require_same(found, expected);
-}
 
 /// What the CPU made of it.
 Run require_cpu_results(const MixedMesh& mesh, SmoothingOptions options, const Constraints& constraints = {},
@@ -71,52 +56,6 @@ Run require_cpu_results(const MixedMesh& mesh, SmoothingOptions options, const C
   options.backend = &cuda::backend();
   require_of_device(run(mesh, options, constraints, storage), expected);
   return expected;
-}
-
-/// Every method, with what else the mean-ratio method may aim at and do, in both forms and precisions.
-std::vector<SmoothingOptions> all_ways(std::int64_t max_sweeps) {
-  std::vector<SmoothingOptions> of_methods;
-  for (const Method method : methods) {
-    of_methods.emplace_back().method = method;
-  }
-  for (const TargetShape target : {TargetShape::uniform, TargetShape::input}) {
-    SmoothingOptions& options = of_methods.emplace_back();
-    options.method = Method::mean_ratio;
-    options.mean_ratio = {2.5, 5, target};
-  }
-  of_methods.emplace_back().method = Method::mean_ratio;
-  of_methods.back().mean_ratio.steady = true;
-  std::vector<SmoothingOptions> ways;
-  for (SmoothingOptions options : of_methods) {
-    options.max_sweeps = max_sweeps;
-    options.untangle = Untangle::off;  // tangled meshes would go to the host
-    for (const Form form : forms) {
-      for (const Precision precision : precisions) {
-        options.form = form;
-        options.precision = precision;
-        ways.push_back(options);
-      }
-    }
-  }
-  return ways;
-}
-
-std::string name_of(const SmoothingOptions& options) {
-  return std::string(to_string(options.method)) + ", form " + std::string(to_string(options.form)) + ", " +
-         std::string(to_string(options.precision)) + ", " + std::string(to_string(options.mean_ratio.target)) +
-         (options.mean_ratio.steady ? ", steady" : "");
-}
-
-/// Random meshes, all with quadrilaterals.
-std::vector<MixedMesh> random_meshes(std::size_t count) {
-  std::vector<MixedMesh> meshes;
-  for (std::uint64_t seed = 0; meshes.size() < count; ++seed) {
-    MixedMesh mesh = mixed_meshes::random_mesh(seed);
-    if (!std::ranges::all_of(mesh.elements, [](const auto& element) { return element[3] == no_corner; })) {
-      meshes.push_back(std::move(mesh));
-    }
-  }
-  return meshes;
 }
 
 /// A grid of squares and triangles with such vertices in it as a grid has not: one between two quadrilaterals alone,
