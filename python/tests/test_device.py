@@ -459,6 +459,109 @@ def test_quadrilaterals_of_host_arrays_have_the_same_bits_on_the_cuda_backend(me
         trismooth.smooth(points, elements, devices=[0, 0])
 
 
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("indices", [np.int32, np.int64])
+def test_quadrilaterals_on_the_device_come_back_as_they_went_in_with_the_bits_of_the_cpu(library, dtype, indices):
+    points, elements = mixed_mesh(40, 30, jitter=0.35)
+    points = points.astype(dtype)
+    given = library.put(points)
+    result = trismooth.smooth(given, library.put(elements.astype(indices)))
+    assert isinstance(result.points, library.type) and str(result.points.dtype).endswith(np.dtype(dtype).name)
+    assert result.backend == "cuda"
+    assert result.note == "the host found the neighbours: of a mesh with quadrilaterals no device does"
+    np.testing.assert_array_equal(library.get(result.points), host(points, elements))
+    np.testing.assert_array_equal(library.get(given), points)
+
+
+@pytest.mark.parametrize("options", [options for options in OPTIONS if "execution" not in options], ids=str)
+def test_every_option_has_the_bits_of_the_cpu_with_quadrilaterals(writable, options):
+    points, elements = mixed_mesh(30, 25, jitter=0.4)
+    given = writable.put(points)
+    result = trismooth.smooth(given, writable.put(elements), out=given, **options)
+    expected = trismooth.smooth(points, elements, backend="cpu", **options)
+    np.testing.assert_array_equal(writable.get(given), expected.points)
+    assert (result.moved, result.inverted, result.quadrilaterals) == (expected.moved, expected.inverted, expected.quadrilaterals)
+
+
+def test_constraints_on_the_device_hold_quadrilaterals(library):
+    points, elements = mixed_mesh(30, 25, jitter=0.3)
+    regions = (elements[:, 0] % 5 == 0).astype(np.int64)
+    fixed = np.zeros(len(points), bool)
+    fixed[::7] = True
+    size = 1 + points[:, 0] / 20
+    held = dict(regions=regions, fixed=fixed, other_cells=np.array([100, 101, 205]), size=size)
+    result = trismooth.smooth(
+        library.put(points),
+        library.put(elements),
+        method="mean-ratio",
+        **{name: library.put(array) for name, array in held.items()},
+    )
+    np.testing.assert_array_equal(library.get(result.points), host(points, elements, method="mean-ratio", **held))
+
+
+def test_plans_of_quadrilaterals_follow_moving_points(library):
+    points, elements = mixed_mesh(30, 25, jitter=0.3)
+    plan = trismooth.Plan(library.put(elements), len(points))
+    assert repr(plan) == f"<trismooth.Plan: {len(points)} vertices, {len(elements)} elements>"
+    for factor in (1, 0.5, -1, 2):
+        moved = points * [factor, 1]
+        result = plan.smooth(library.put(moved), quality=True)
+        expected = trismooth.smooth(moved, elements, backend="cpu")
+        np.testing.assert_array_equal(library.get(result.points), expected.points)
+        assert str(result.after) == str(expected.after)
+    np.testing.assert_array_equal(
+        trismooth.quality(library.put(points), library.put(elements)).shape, trismooth.quality(points, elements).shape
+    )
+
+
+def test_quadrilaterals_of_any_strides_and_integer_types():
+    cupy = pytest.importorskip("cupy")
+    points, elements = mixed_mesh()
+    expected = host(points, elements)
+    put = cupy.asarray
+    backwards = put(np.hstack([elements[:, ::-1], elements]))
+    for given in (backwards[:, 4:], *(put(elements.astype(code)) for code in "bhilqILQ")):
+        np.testing.assert_array_equal(trismooth.smooth(put(points), given).points.get(), expected)
+    for code in "BH":
+        with pytest.raises(TypeError, match="^triangles: unsigned integers of 8 or 16 bits have no -1"):
+            trismooth.smooth(put(points), put(elements.astype(code)))
+
+
+def test_triangles_with_four_numbers_are_what_they_are_with_three(library):
+    points, triangles = grid(60, 40)
+    four = np.pad(triangles, ((0, 0), (0, 1)), constant_values=-1)
+    for options in ({}, {"execution": "single-block"}):
+        result = trismooth.smooth(library.put(points), library.put(four), **options)
+        assert result.note == "" and result.quadrilaterals == 0
+        np.testing.assert_array_equal(library.get(result.points), host(points, triangles))
+
+
+def test_elements_on_the_device_that_are_no_mesh_are_refused_as_on_the_host(writable):
+    points, elements = mixed_mesh()
+    put = writable.put
+    p = put(points)
+    place = int(np.argmax(elements[:, 3] >= 0))
+
+    def with_number(corner, number):
+        wrong = elements.copy()
+        wrong[place, corner] = number
+        return wrong
+
+    for wrong in (with_number(1, -1), with_number(1, len(points)), with_number(3, -2), with_number(1, elements[place, 3])):
+        with pytest.raises(trismooth.MeshError) as here:
+            trismooth.smooth(p, put(wrong))
+        with pytest.raises(trismooth.MeshError) as there:
+            trismooth.smooth(points, wrong)
+        assert str(here.value) == str(there.value)
+    with pytest.raises(ValueError, match="execution 'single-block' smooths triangles alone"):
+        trismooth.smooth(p, put(elements), execution="single-block")
+    with pytest.raises(ValueError, match=r"^triangles: shape \(\d+, 6\); expected \(M, 3\), or \(M, 4\) with"):
+        trismooth.smooth(p, put(np.hstack([elements, elements[:, :2]])))
+    with pytest.raises(ValueError, match="quadrilaterals in memory of the host"):
+        trismooth.MovingMesh(p, put(elements))
+    np.testing.assert_array_equal(writable.get(p), points)
+
+
 @pytest.mark.parametrize("devices", [0, [0], [0, 0], (0, 0, 0)])
 def test_devices_that_share_a_mesh_have_the_same_bits(devices):
     points, triangles = grid(60, 40)

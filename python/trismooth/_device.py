@@ -133,7 +133,7 @@ class _OnDevice:
         # What is made keeps it: work is queued on it to the very end, where this object's own reference may be gone.
         self._stream = _stream(array, self._options.pop("stream", None))
         self._stream_number = _number_of(self._stream)
-        self._triangles = triangles
+        self.triangles = triangles
         self._place = f"{argument} are on a CUDA device"
         self._made: Any
 
@@ -161,13 +161,13 @@ class _OnDevice:
         result_points = _as_given(points, target) if out is None else out
         if quality:
             outcome = outcome.with_quality(reports[0], self._report(result_points))
-        return outcome, result_points, self._triangles, None if out is points else points
+        return outcome, result_points, self.triangles, None if out is points else points
 
     def _report(self, points: Any) -> _core.QualityReport:
         return _core.quality(to_host(points), self._corners(), 0)[0]
 
     def _corners(self) -> np.ndarray:
-        return to_host(self._triangles)
+        return to_host(self.triangles)
 
 
 class DevicePlan(_OnDevice):

@@ -170,5 +170,6 @@ class Plan:
         )
 
     def __repr__(self) -> str:
-        name = "triangles" if self._on_device or self._mesh.corners.shape[1:] != (4,) else "elements"
+        listed = self._plan.triangles if self._on_device else self._mesh.corners
+        name = "elements" if tuple(listed.shape[1:]) == (4,) else "triangles"
         return f"<trismooth.Plan: {self.n_points} vertices, {self.n_triangles} {name}>"

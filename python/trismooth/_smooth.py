@@ -55,11 +55,11 @@ def smooth(
         mesh itself, and ``regions`` and ``fixed`` may name arrays or sets of the mesh.
     triangles : array of integers, shape (M, 3), (M, 4), (M, 6) or (M, 9)
         Vertex numbers from 0, in either direction. With four, quadrilaterals are among them: the corners in turn, the
-        last of a triangle is -1; of arrays of the host alone. Six are a
+        last of a triangle is -1. Six, of arrays of the host alone, are a
         quadratic triangle: the corners, then the middles of the sides 01, 12 and 20, which follow the ends of their
-        sides. Nine are the nodes of any element of three, four, six, eight or nine, with -1 behind them: corners, middles
-        of the sides, the centre, which follows the corners. One that is listed again, in whatever order, counts
-        and is smoothed once; of arrays on a CUDA device list none again, for there it is not looked for.
+        sides. Nine, likewise, are the nodes of any element of three, four, six, eight or nine, with -1 behind them:
+        corners, middles of the sides, the centre, which follows the corners. One that is listed again, in whatever order,
+        counts and is smoothed once; of arrays on a CUDA device list none again, for there it is not looked for.
     regions : array of M labels, optional
         Vertices between triangles of different labels are held. Labels of any type, texts as well. A triangle that is
         listed again with another label is of a region of its own, that of both labels. Of a mesh: the names
