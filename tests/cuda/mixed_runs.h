@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -89,6 +91,18 @@ inline std::vector<MixedMesh> random_meshes(std::size_t count) {
     }
   }
   return meshes;
+}
+
+/// Rows that grow away from a wall.
+inline MixedMesh with_layers() {
+  MixedMesh mesh(40, 20, 0.3, 6, 0);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const auto row = static_cast<int>(v / 41);
+    auto& [x, y] = mesh.points[v];
+    x = row <= 8 ? static_cast<double>(v % 41) : x;
+    y = row <= 8 ? 0.01 * (std::pow(1.6, row) - 1) / 0.6 : y + 0.01 * (std::pow(1.6, 8) - 1) / 0.6 - 8;
+  }
+  return mesh;
 }
 
 }  // namespace mixed_runs

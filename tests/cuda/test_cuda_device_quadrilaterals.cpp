@@ -2,7 +2,6 @@
 // Meshes with quadrilaterals in device memory against the CPU, in all that results say.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -32,6 +31,7 @@ using mixed_runs::name_of;
 using mixed_runs::random_meshes;
 using mixed_runs::require_of_device;
 using mixed_runs::run;
+using mixed_runs::with_layers;
 using smoothing_runs::require_same;
 using smoothing_runs::Run;
 using test_support::refusal;
@@ -88,8 +88,8 @@ class OnDevice {
 };
 
 /// What the CPU made of it, where it need not be untangled.
-Run require_cpu_results(const MixedMesh& mesh, SmoothingOptions options, const Constraints& constraints = {},
-                        Storage storage = Storage::float64) {
+Run require_cpu_bits(const MixedMesh& mesh, SmoothingOptions options, const Constraints& constraints = {},
+                     Storage storage = Storage::float64) {
   options.untangle = Untangle::off;
   const Run expected = run(mesh, options, constraints, storage);
   const Run found = OnDevice(mesh, options, constraints).smooth(mesh.xy(), storage);
@@ -118,18 +118,6 @@ MixedMesh beside_each_other(MixedMesh mesh, const MixedMesh& other) {
   return mesh;
 }
 
-/// Rows that grow away from a wall.
-MixedMesh with_layers() {
-  MixedMesh mesh(40, 20, 0.3, 6, 0);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const auto row = static_cast<int>(v / 41);
-    auto& [x, y] = mesh.points[v];
-    x = row <= 8 ? static_cast<double>(v % 41) : x;
-    y = row <= 8 ? 0.01 * (std::pow(1.6, row) - 1) / 0.6 : y + 0.01 * (std::pow(1.6, 8) - 1) / 0.6 - 8;
-  }
-  return mesh;
-}
-
 }  // namespace
 
 TEST_CASE("random meshes with quadrilaterals in device memory have the CPU's bits by every method") {
@@ -139,7 +127,7 @@ TEST_CASE("random meshes with quadrilaterals in device memory have the CPU's bit
       for (const bool measures : {false, true}) {
         CAPTURE(mesh.points.front()[0], name_of(options), measures);
         options.record_min_shape = measures;
-        reverted += require_cpu_results(mesh, options).result.reverted_vertices;
+        reverted += require_cpu_bits(mesh, options).result.reverted_vertices;
       }
     }
   }
@@ -151,7 +139,7 @@ TEST_CASE("large meshes with quadrilaterals in device memory have the CPU's bits
     const MixedMesh mesh = MixedMesh(160, 150, 0.4, 3, thirds).listed_from_other_corners(7, true).in_another_order(2);
     for (const SmoothingOptions& options : all_ways(400)) {
       CAPTURE(thirds, name_of(options));
-      require_cpu_results(mesh, options);
+      require_cpu_bits(mesh, options);
     }
   }
 }
@@ -168,7 +156,7 @@ TEST_CASE("quadrilaterals in device memory are rounded as they are stored, and f
       options.method = method;
       options.max_sweeps = 30;
       options.untangle = Untangle::off;
-      const Run expected = require_cpu_results(mesh, options, {}, Storage::float32);
+      const Run expected = require_cpu_bits(mesh, options, {}, Storage::float32);
       require_of_device(OnDevice(mesh, options).smooth_floats(mesh.xy()), expected);
     }
   }
@@ -212,7 +200,7 @@ TEST_CASE("vertices of quadrilaterals in device memory are held as on the CPU, f
   const Constraints all{.fixed = fixed, .fixed_ids = ids, .other_cells = other_cells, .regions = regions};
   for (const SmoothingOptions& options : all_ways(40)) {
     CAPTURE(name_of(options));
-    require_cpu_results(mesh, options, all);
+    require_cpu_bits(mesh, options, all);
   }
   CHECK(OnDevice(mesh, {}, all).fixed() == plan(mesh.vertex_count(), mesh.elements, all).fixed());
   const MixedMesh layered = with_layers();
@@ -221,7 +209,7 @@ TEST_CASE("vertices of quadrilaterals in device memory are held as on the CPU, f
     options.method = Method::mean_ratio;
     options.layers = layers;
     options.untangle = Untangle::off;
-    const Run expected = require_cpu_results(layered, options);
+    const Run expected = require_cpu_bits(layered, options);
     CHECK((expected.result.layers.kept > 100) == (layers != Layers::smooth));
     SmoothingPlan on_cpu = plan(layered.vertex_count(), layered.elements, options);
     OnDevice on_device(layered, options);
@@ -242,19 +230,19 @@ TEST_CASE("sizes, targets, limits and callers that stop have the CPU's bits with
     CAPTURE(name_of(options));
     if (options.method == Method::mean_ratio) {
       options.mean_ratio.target_lengths = lengths;
-      require_cpu_results(mesh, options);
+      require_cpu_bits(mesh, options);
       options.mean_ratio.target_lengths = {};
     }
     for (const double target : {-1.0, 0.05, 0.4, 1.0}) {
       options.target_quality = target;
-      require_cpu_results(mesh, options);
+      require_cpu_bits(mesh, options);
     }
     options.target_quality.reset();
     options.guard = false;
-    require_cpu_results(mesh, options);
+    require_cpu_bits(mesh, options);
     options.guard = true;
     options.progress = [](const SweepRecord& record) { return record.sweep == 3 ? Progress::stop : Progress::proceed; };
-    require_cpu_results(mesh, options);
+    require_cpu_bits(mesh, options);
   }
 }
 
@@ -276,7 +264,7 @@ TEST_CASE("meshes without a free vertex, far or tiny ones, and none of quadrilat
         y = (y - offset) * scale;
       }
       CAPTURE(scale, offset);
-      require_cpu_results(mesh, {});
+      require_cpu_bits(mesh, {});
     }
   }
   const MixedMesh nothing;

@@ -40,6 +40,7 @@ using mixed_runs::name_of;
 using mixed_runs::random_meshes;
 using mixed_runs::require_of_device;
 using mixed_runs::run;
+using mixed_runs::with_layers;
 using smoothing_runs::forms;
 using smoothing_runs::precisions;
 using smoothing_runs::require_same;
@@ -303,14 +304,7 @@ TEST_CASE("vertices of quadrilaterals that are named, of regions and of layers a
     CAPTURE(name_of(options));
     require_cpu_results(mesh, options, {.fixed = fixed, .fixed_ids = ids, .regions = regions});
   }
-  // Rows that grow away from a wall.
-  MixedMesh layered(40, 20, 0.3, 6, 0);
-  for (std::size_t v = 0; v < layered.points.size(); ++v) {
-    const auto row = static_cast<int>(v / 41);
-    auto& [x, y] = layered.points[v];
-    x = row <= 8 ? static_cast<double>(v % 41) : x;
-    y = row <= 8 ? 0.01 * (std::pow(1.6, row) - 1) / 0.6 : y + 0.01 * (std::pow(1.6, 8) - 1) / 0.6 - 8;
-  }
+  const MixedMesh layered = with_layers();
   for (const Layers layers : {Layers::keep, Layers::smooth}) {
     SmoothingOptions options;
     options.method = Method::mean_ratio;
