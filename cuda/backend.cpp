@@ -270,7 +270,7 @@ class CudaBackend final : public Backend {
       return cpu_backend().prepare(mesh, elements, local, options);
     }
     if (mesh.part != nullptr) {
-      return prepare_part(mesh, elements.triangles(), local, options,
+      return prepare_part(mesh, elements, local, options,
                           device_ ? part_offloads_on(*device_) : part_offloads(*mesh.part));
     }
     if (mesh.slidable.is_wanted()) {

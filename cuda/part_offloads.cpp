@@ -47,9 +47,12 @@ SlottedRings<std::int32_t> uploaded(Context& context, const HostRings& rings) {
   std::vector<std::int32_t> same_number(vertices);
   std::iota(same_number.begin(), same_number.end(), 0);
   const DeviceRings from{DeviceBuffer<std::uint32_t>(context, offsets),
-                         DeviceBuffer<std::int32_t>(context, std::span<const std::int32_t>(rings.neighbours))};
+                         DeviceBuffer<std::int32_t>(context, std::span<const std::int32_t>(rings.neighbours)),
+                         DeviceBuffer<std::int32_t>(context, std::span<const std::int32_t>(rings.opposites))};
   const DeviceBuffer<std::int32_t> input(context, same_number);
-  return slotted<std::int32_t>(context, Renumbering(context, from.view(), input.data(), rings.free_count()));
+  const Renumbering numbers(context, from.view(), input.data(), rings.free_count());
+  return from.has_quadrilaterals() ? slotted_mixed<std::int32_t>(context, numbers, from.opposites.data())
+                                   : slotted<std::int32_t>(context, numbers);
 }
 
 /// What of one colour goes to others and comes from them, on the device.
@@ -151,30 +154,7 @@ class PartSweeps final : public SweepOffload<T> {
     const DeviceScope scope(device_);
     method_.step = step;
     sums_.fill_bytes(0);
-    const std::size_t next = swaps_ ? 1 - current_ : current_;
-    PartBatch<T> batch{records_.view(),
-                       array(current_),
-                       array(next),
-                       marks_[current_].data(),
-                       marks_[next].data(),
-                       0,
-                       0,
-                       static_cast<T>(options_.tolerance)};
-    cudaStream_t stream = context_->stream();
-    for (std::size_t colour = 0; colour < exchanges_.size() && 2 * colour + 2 < rings_.batches.size(); ++colour) {
-      ColourExchange<T>& exchange = exchanges_[colour];
-      visit(batch, 2 * colour);
-      launch_gathering(batch.to, exchange.sent.data(), static_cast<std::int32_t>(exchange.sent.size()),
-                       exchange.out.data(), stream);
-      transport_->start(exchange.sends, exchange.receives, stream);
-      visit(batch, 2 * colour + 1);
-      transport_->finish(stream);
-      const ArrivedGhosts ghosts{exchange.ghosts.data(), static_cast<std::int32_t>(exchange.ghosts.size()),
-                                 exchange.offsets.data(), exchange.around.data()};
-      launch_arrival(exchange.in.data(), ghosts, batch.from, batch.to,
-                     visit_ == Visit::all ? nullptr : batch.next_marks, stream);
-    }
-    current_ = next;
+    with_rings([this](const auto& rings) { this->sweep_over(rings); });
     SweepSums found{};
     sums_.download({&found, 1});
     choose_visit(static_cast<std::int64_t>(found.moved), step);
@@ -187,7 +167,9 @@ class PartSweeps final : public SweepOffload<T> {
       return std::numeric_limits<T>::infinity();
     }
     sums_.fill_bytes(0);
-    launch_smallest_quotient(records_.view(), array(current_), sums_.data(), context_->stream());
+    with_rings([this](const auto& rings) {
+      launch_smallest_quotient(rings, array(current_), sums_.data(), context_->stream());
+    });
     SweepSums found{};
     sums_.download({&found, 1});
     return found.min_quotient == 0 ? std::numeric_limits<T>::infinity()
@@ -203,6 +185,41 @@ class PartSweeps final : public SweepOffload<T> {
  private:
   PointArray<T> array(std::size_t buffer) { return {points_[buffer].data()}; }
 
+  /// Calls body() with the records, of triangles or of a mesh with quadrilaterals.
+  template <class Body>
+  void with_rings(const Body& body) const {
+    rings_.opposites.empty() ? body(records_.view()) : body(records_.mixed_view());
+  }
+
+  /// Queues a sweep.
+  template <class Rings>
+  void sweep_over(const Rings& rings) {
+    const std::size_t next = swaps_ ? 1 - current_ : current_;
+    PartBatch<T, Rings> batch{rings,
+                              array(current_),
+                              array(next),
+                              marks_[current_].data(),
+                              marks_[next].data(),
+                              0,
+                              0,
+                              static_cast<T>(options_.tolerance)};
+    cudaStream_t stream = context_->stream();
+    for (std::size_t colour = 0; colour < exchanges_.size() && 2 * colour + 2 < rings_.batches.size(); ++colour) {
+      ColourExchange<T>& exchange = exchanges_[colour];
+      visit(batch, 2 * colour);
+      launch_gathering(batch.to, exchange.sent.data(), static_cast<std::int32_t>(exchange.sent.size()),
+                       exchange.out.data(), stream);
+      transport_->start(exchange.sends, exchange.receives, stream);
+      visit(batch, 2 * colour + 1);
+      transport_->finish(stream);
+      const ArrivedGhosts ghosts{exchange.ghosts.data(), static_cast<std::int32_t>(exchange.ghosts.size()),
+                                 exchange.offsets.data(), exchange.around.data()};
+      launch_arrival(exchange.in.data(), ghosts, batch.from, batch.to,
+                     visit_ == Visit::all ? nullptr : batch.next_marks, stream);
+    }
+    current_ = next;
+  }
+
   template <class V>
   const V* kept(DeviceBuffer<V>& buffer, const V* values, std::size_t count) {
     if (buffer.size() != count) {
@@ -212,7 +229,8 @@ class PartSweeps final : public SweepOffload<T> {
     return buffer.data();
   }
 
-  void visit(PartBatch<T>& batch, std::size_t number) {
+  template <class Rings>
+  void visit(PartBatch<T, Rings>& batch, std::size_t number) {
     batch.begin = rings_.batches[number];
     batch.end = rings_.batches[number + 1];
     launch_part_batch(method_, batch, visit_, sums_.data(), context_->stream());

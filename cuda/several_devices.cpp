@@ -33,14 +33,14 @@ std::mutex& turns() {
 
 class SharedSmoother final : public PreparedSmoother {
  public:
-  SharedSmoother(MeshRings mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
+  SharedSmoother(MeshRings mesh, const ElementList& elements, std::span<const Point2<double>> local,
                  const SmoothingOptions& options, const Devices& devices) {
     if (options.untangles()) {
-      untangling_.emplace(mesh.fixed, triangles, options, mesh.slidable);
+      untangling_.emplace(mesh.fixed, elements, options, mesh.slidable);
     }
     const std::lock_guard lock(turns());
     smoother_ = prepare_in_parts(
-        std::move(mesh), triangles, local, options, static_cast<int>(devices.size()),
+        std::move(mesh), elements, local, options, static_cast<int>(devices.size()),
         [&](const MeshPart& part) { return part_offloads_on(devices[static_cast<std::size_t>(part.number)]); });
   }
 
@@ -77,9 +77,6 @@ class SeveralDevices final : public Backend {
                                             std::span<const Point2<double>> local,
                                             const SmoothingOptions& options) const override {
     options.validate();
-    if (!elements.are_triangles()) {
-      throw std::invalid_argument("several devices smooth triangles alone: quadrilaterals on one device");
-    }
     if (options.order == Order::unordered || options.execution != Execution::resident) {
       throw std::invalid_argument("executions and orders of the paper's CUDA versions are for one device");
     }
@@ -92,10 +89,10 @@ class SeveralDevices final : public Backend {
           "vertices slide on one device, not on several");
     }
     require_ready();
-    return std::make_unique<SharedSmoother>(std::move(mesh), elements.triangles(), local, options, devices_);
+    return std::make_unique<SharedSmoother>(std::move(mesh), elements, local, options, devices_);
   }
 
-  bool takes_quadrilaterals() const override { return false; }
+  bool takes_quadrilaterals() const override { return true; }
 
  private:
   Devices devices_;

@@ -48,7 +48,6 @@ constexpr const char* untangling_over_parts =
 
 class CpuSmoother final : public PreparedSmoother {
  public:
-  /// Where elements are not listed as triangles the sweeps are made here.
   CpuSmoother(MeshRings mesh, const ElementList& elements, std::span<const Point2<double>> local,
               const SmoothingOptions& options, std::unique_ptr<SweepOffloads> offloads)
       : options_(options),
@@ -538,10 +537,10 @@ class CpuBackend final : public Backend {
 
 }  // namespace
 
-std::unique_ptr<PreparedSmoother> prepare_part(MeshRings mesh, std::span<const Triangle> triangles,
+std::unique_ptr<PreparedSmoother> prepare_part(MeshRings mesh, const ElementList& elements,
                                                std::span<const Point2<double>> local, const SmoothingOptions& options,
                                                std::unique_ptr<SweepOffloads> offloads) {
-  return std::make_unique<CpuSmoother>(std::move(mesh), triangles, local, options, std::move(offloads));
+  return std::make_unique<CpuSmoother>(std::move(mesh), elements, local, options, std::move(offloads));
 }
 
 const Backend& cpu_backend() {

@@ -20,10 +20,11 @@ enum class Visit : std::uint8_t {
   marked_and_mark,  ///< those that are marked
 };
 
-/// A batch at work: vertices begin .. end, in packed numbering.
-template <class T>
+/// A batch at work: vertices begin .. end, in packed numbering. `Rings`: SlottedRingsView or SlottedMixedRingsView, of
+/// std::int32_t.
+template <class T, class Rings>
 struct PartBatch {
-  SlottedRingsView<std::int32_t> rings;  ///< of the free vertices
+  Rings rings;  ///< of the free vertices
   PointArray<T> from;
   PointArray<T> to;           ///< `from` in Form B
   std::uint32_t* marks;       ///< of this sweep
@@ -34,8 +35,8 @@ struct PartBatch {
 };
 
 /// Queues the visit of a batch. Adds to `sums`.
-template <class T>
-void launch_part_batch(const MethodInUse<T>& method, const PartBatch<T>& batch, Visit visit, SweepSums* sums,
+template <class T, class Rings>
+void launch_part_batch(const MethodInUse<T>& method, const PartBatch<T, Rings>& batch, Visit visit, SweepSums* sums,
                        cudaStream_t stream);
 
 /// Queues the copying of the points of `count` listed vertices, one after the other, to where they are sent from.

@@ -455,8 +455,9 @@ def test_quadrilaterals_of_host_arrays_have_the_same_bits_on_the_cuda_backend(me
     result = trismooth.smooth(points, elements, backend="cuda", method=method)
     assert result.backend == "cuda"
     np.testing.assert_array_equal(result.points, trismooth.smooth(points, elements, backend="cpu", method=method).points)
-    with pytest.raises(ValueError, match="several devices smooth triangles alone"):
-        trismooth.smooth(points, elements, devices=[0, 0])
+    shared = trismooth.smooth(points, elements, devices=[0, 0], method=method)
+    assert shared.backend == "cuda"
+    np.testing.assert_array_equal(shared.points, result.points)
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])

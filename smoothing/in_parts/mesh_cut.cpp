@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "trismooth/base/hold.h"
 #include "trismooth/base/machine/workers.h"
@@ -48,16 +49,18 @@ MeshPart::Neighbour& neighbour_of(MeshPart& part, int other) {
 /// Cuts parts out of one mesh. Keeps arrays of the mesh's size, so it is made once.
 class Cutter {
  public:
-  Cutter(const MeshRings& mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local, int parts,
+  Cutter(const MeshRings& mesh, const ElementList& elements, std::span<const Point2<double>> local, int parts,
          Workers& workers)
       : mesh_(mesh),
-        triangles_(triangles),
+        elements_(elements),
         local_(local),
         workers_(workers),
         owners_(owners_along_curve(mesh, local, parts, workers)),
         colouring_(colour_free_vertices(mesh.rings.view(), workers)),
-        fixed_elements_(numbers_of(
-            std::ssize(triangles), [&](std::int64_t t) { return all_are_fixed(triangles[t], mesh.fixed); }, workers)),
+        fixed_elements_(elements.visit([&](const auto& listed) {
+          return numbers_of(
+              std::ssize(listed), [&](std::int64_t e) { return all_are_fixed(listed[e], mesh.fixed); }, workers);
+        })),
         is_known_(local.size()),
         number_(local.size()) {
     for (const std::uint8_t why : mesh.fixed) {
@@ -90,9 +93,9 @@ class Cutter {
     });
   }
 
-  bool is_counted(std::int32_t t, int number) const { return owners_[std::ranges::min(triangles_[t])] == number; }
+  bool is_counted(std::int32_t e, int number) const { return owners_[std::ranges::min(elements_[e])] == number; }
 
-  /// What it owns, the rings of that, and the corners of triangles that it counts.
+  /// What it owns, what is around that, and the corners of elements that it counts.
   void mark_known(int number) {
     std::ranges::fill(is_known_, std::uint8_t{0});
     const auto mark = [&](std::int32_t v) { std::atomic_ref(is_known_[v]).store(1, std::memory_order_relaxed); };
@@ -100,13 +103,13 @@ class Cutter {
       for (auto v = static_cast<std::int32_t>(begin); v < end; ++v) {
         if (owners_[v] == number && (mesh_.fixed[v] & hold::isolated) == 0) {
           mark(v);
-          std::ranges::for_each(mesh_.rings[v], mark);
+          mesh_.rings.view().for_vertices_around(v, mark);
         }
       }
     });
-    for (const std::int32_t t : fixed_elements_) {
-      if (is_counted(t, number)) {
-        std::ranges::for_each(triangles_[t], mark);
+    for (const std::int32_t e : fixed_elements_) {
+      if (is_counted(e, number)) {
+        std::ranges::for_each(elements_[e], mark);
       }
     }
   }
@@ -134,24 +137,36 @@ class Cutter {
       const std::int32_t whole = part.vertices[v];
       return owners_[whole] == number ? std::ssize(mesh_.rings[whole]) : 0;
     };
-    part.mesh.rings = OneRings::with_sizes(static_cast<std::int32_t>(part.vertices.size()), size, workers_);
+    OneRings& rings = part.mesh.rings;
+    rings = OneRings::with_sizes(static_cast<std::int32_t>(part.vertices.size()), size, workers_);
+    rings.opposites.resize(mesh_.rings.opposites.empty() ? 0 : rings.neighbours.size());
     for_vertices(part, [&](std::int32_t v, std::int32_t whole) {
       if (size(v) > 0) {
-        std::ranges::transform(mesh_.rings[whole], part.mesh.rings.neighbours.begin() + part.mesh.rings.offsets[v],
+        std::ranges::transform(mesh_.rings[whole], rings.neighbours.begin() + rings.offsets[v],
                                [&](std::int32_t neighbour) { return number_[neighbour]; });
+      }
+      if (size(v) > 0 && !rings.opposites.empty()) {
+        std::ranges::transform(mesh_.rings.view().mixed(whole).opposites, rings.opposites.begin() + rings.offsets[v],
+                               [&](std::int32_t opposite) { return in_part(opposite); });
       }
     });
   }
 
   void take_fixed_elements(CutPart& part, int number) {
-    for (const std::int32_t t : fixed_elements_) {
-      if (is_counted(t, number)) {
-        const auto& [a, b, c] = triangles_[t];
-        part.triangles.push_back({number_[a], number_[b], number_[c]});
-        part.mesh.reversed.push_back(mesh_.reversed[t]);
+    part.elements = elements_.visit([&]<class Corners>(std::span<const Corners> listed) {
+      std::vector<Corners> taken;
+      for (const std::int32_t e : fixed_elements_) {
+        if (is_counted(e, number)) {
+          std::ranges::transform(listed[e], taken.emplace_back().begin(), [&](std::int32_t v) { return in_part(v); });
+          part.mesh.reversed.push_back(mesh_.reversed[e]);
+        }
       }
-    }
+      return OwnElements(std::move(taken));
+    });
   }
+
+  /// The number in the part of a vertex, or of no_corner.
+  std::int32_t in_part(std::int32_t vertex) const { return vertex == no_corner ? no_corner : number_[vertex]; }
 
   void find_owners_of_ghosts(const CutPart& part, MeshPart& of_part) const {
     for (std::int32_t v = 0; v < std::ssize(part.vertices); ++v) {
@@ -162,7 +177,7 @@ class Cutter {
   }
 
   const MeshRings& mesh_;
-  std::span<const Triangle> triangles_;
+  ElementList elements_;
   std::span<const Point2<double>> local_;
   Workers& workers_;
   BulkVector<std::int32_t> owners_;
@@ -192,10 +207,10 @@ void find_sends(std::span<const CutPart> cut, std::span<const std::shared_ptr<Me
 
 }  // namespace
 
-std::vector<CutPart> cut_into_parts(const MeshRings& mesh, std::span<const Triangle> triangles,
+std::vector<CutPart> cut_into_parts(const MeshRings& mesh, const ElementList& elements,
                                     std::span<const Point2<double>> local, const ThreadTeam& team, bool has_progress,
                                     Workers& workers) {
-  Cutter cutter(mesh, triangles, local, team.count(), workers);
+  Cutter cutter(mesh, elements, local, team.count(), workers);
   std::vector<CutPart> cut;
   std::vector<std::shared_ptr<MeshPart>> parts;
   for (int p = 0; p < team.count(); ++p) {

@@ -41,13 +41,13 @@ std::string listed(std::span<const SmoothingResult> results) {
 
 class PartsSmoother final : public PreparedSmoother {
  public:
-  PartsSmoother(MeshRings mesh, std::span<const Triangle> triangles, std::span<const Point2<double>> local,
+  PartsSmoother(MeshRings mesh, const ElementList& elements, std::span<const Point2<double>> local,
                 const SmoothingOptions& options, int parts, const OffloadsOfPart& offloads)
       : workers_(options.threads), options_(options), fixed_(std::move(mesh.fixed)), team_(parts) {
     const Stopwatch watch;
     mesh.fixed = fixed_;
     std::vector<CutPart> cut =
-        cut_into_parts(mesh, triangles, local, team_, options.progress || options.cancel, workers_);
+        cut_into_parts(mesh, elements, local, team_, options.progress || options.cancel, workers_);
     mesh = {};
     for (CutPart& part : cut) {
       parts_.emplace_back();
@@ -56,7 +56,7 @@ class PartsSmoother final : public PreparedSmoother {
     }
     team_.run([&](int number) {
       const auto p = static_cast<std::size_t>(number);
-      parts_[p].smoother = prepare_part(std::move(cut[p].mesh), cut[p].triangles, cut[p].local, of_part(number),
+      parts_[p].smoother = prepare_part(std::move(cut[p].mesh), cut[p].elements.list(), cut[p].local, of_part(number),
                                         offloads ? offloads(*parts_[p].part) : nullptr);
     });
     prepare_ms_ = watch.milliseconds();
@@ -164,11 +164,11 @@ class PartsSmoother final : public PreparedSmoother {
 
 }  // namespace
 
-std::unique_ptr<PreparedSmoother> prepare_in_parts(MeshRings mesh, std::span<const Triangle> triangles,
+std::unique_ptr<PreparedSmoother> prepare_in_parts(MeshRings mesh, const ElementList& elements,
                                                    std::span<const Point2<double>> local,
                                                    const SmoothingOptions& options, int parts,
                                                    const OffloadsOfPart& offloads) {
-  return std::make_unique<PartsSmoother>(std::move(mesh), triangles, local, options, parts, offloads);
+  return std::make_unique<PartsSmoother>(std::move(mesh), elements, local, options, parts, offloads);
 }
 
 }  // namespace trismooth

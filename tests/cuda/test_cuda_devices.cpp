@@ -18,10 +18,13 @@
 #include "trismooth/smoothing/errors.h"
 
 #include "catch.h"
+#include "mixed_runs.h"
 #include "properties/for_random_meshes.h"
 #include "properties/in_parts.h"
 #include "properties/smoothing_cases.h"
+#include "smoothing_runs.h"
 #include "support/distorted_meshes.h"
+#include "support/mixed_meshes.h"
 
 using namespace properties;
 
@@ -100,6 +103,51 @@ TEST_CASE("a large mesh that devices share has the bits of the CPU, by every met
       CHECK(result.backend == "cuda");
     }
   }
+}
+
+TEST_CASE(
+    "meshes with quadrilaterals that devices share have the bits of the CPU, by every method, form and precision") {
+  using mixed_meshes::MixedMesh;
+  std::vector<MixedMesh> meshes = mixed_runs::random_meshes(20);
+  meshes.emplace_back(160, 150, 0.4, 3);
+  meshes.push_back(MixedMesh(60, 50, 0.4, 5, 0).listed_from_other_corners(7, true));
+  for (const std::vector<int>& devices : lists_of_devices()) {
+    const std::unique_ptr<trismooth::Backend> backend = cuda::backend_on(devices);
+    for (const MixedMesh& mesh : meshes) {
+      for (SmoothingOptions options : mixed_runs::all_ways(30)) {
+        CAPTURE(devices, mesh.points.front()[0], mixed_runs::name_of(options));
+        options.record_min_shape = mesh.elements.size() % 2 == 0;
+        const auto expected = mixed_runs::run(mesh, options);
+        options.backend = backend.get();
+        const auto found = mixed_runs::run(mesh, options);
+        CHECK(found.result.backend == "cuda");
+        CHECK(found.result.quadrilaterals == expected.result.quadrilaterals);
+        smoothing_runs::require_same(found, expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("quadrilaterals that are tangled, or slide, have the CPU's bits where devices share a mesh, and it is said") {
+  const std::unique_ptr<trismooth::Backend> backend = cuda::backend_on(std::vector<int>{0, 0});
+  const mixed_meshes::MixedMesh mesh(20, 15, 0.5, 4);
+  SmoothingOptions options;
+  options.untangle = trismooth::Untangle::on;
+  const auto untangled = mixed_runs::run(mesh, options);
+  REQUIRE(untangled.result.untangling->inverted_before > 0);
+  trismooth::Constraints constraints;
+  constraints.slide.along = trismooth::Slide::straight;
+  const mixed_meshes::MixedMesh valid(20, 15, 0.2, 4);
+  const auto slid = mixed_runs::run(valid, {}, constraints);
+  options.backend = backend.get();
+  const auto found = mixed_runs::run(mesh, options);
+  CHECK(found.xy == untangled.xy);
+  CHECK(found.result.backend_note == "the mesh has inverted elements, which the CPU untangles");
+  SmoothingOptions shared;
+  shared.backend = backend.get();
+  const auto slid_there = mixed_runs::run(valid, shared, constraints);
+  CHECK(slid_there.xy == slid.xy);
+  CHECK(slid_there.result.backend_note == "vertices slide on one device, not on several");
 }
 
 TEST_CASE("two threads may smooth on the same devices at the same time") {

@@ -530,9 +530,6 @@ TEST_CASE("what devices do not do with quadrilaterals is refused, and nothing mo
   CHECK(refused(options) ==
         "argument: execution 'cdp' smooths triangles alone: quadrilaterals by execution 'resident'");
   options.execution = Execution::resident;
-  const std::unique_ptr<Backend> several = cuda::backend_on(std::array{0, 0});
-  options.backend = several.get();
-  CHECK(refused(options) == "argument: several devices smooth triangles alone: quadrilaterals on one device");
   const std::unique_ptr<Backend> one = cuda::backend_on(std::array{0});
   options.backend = one.get();
   require_of_device(run(mesh, options), run(mesh, {}));

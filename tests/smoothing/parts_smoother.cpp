@@ -13,6 +13,7 @@
 
 #include "catch.h"
 #include "support/distorted_meshes.h"
+#include "support/mixed_meshes.h"
 #include "support/parts_backend.h"
 #include "support/same_bits.h"
 
@@ -51,6 +52,48 @@ TEST_CASE("a mesh in parts comes out as the whole by every method, form and prec
     CHECK(parts.result.history.back().min_shape == whole.result.history.back().min_shape);
     CHECK(same_bits(parts.xy, whole.xy));
   }
+}
+
+TEST_CASE("a mesh with quadrilaterals in parts comes out as the whole by every method, form and precision") {
+  std::vector<mixed_meshes::MixedMesh> meshes;
+  meshes.emplace_back(60, 50, 0.4, 5);
+  meshes.push_back(mixed_meshes::MixedMesh(40, 30, 0.4, 2, 0).listed_from_other_corners(7, true));
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    meshes.push_back(mixed_meshes::random_mesh(seed));
+  }
+  std::int64_t moved = 0;
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const mixed_meshes::MixedMesh& mesh = meshes[m];
+    const PartsBackend in_parts(2 + static_cast<int>(m % 4));
+    const auto smoothed = [&](const SmoothingOptions& options) {
+      Outcome outcome{mesh.xy(), {}};
+      outcome.result = trismooth::smooth(trismooth::xy_points(outcome.xy), mesh.elements, options);
+      return outcome;
+    };
+    for (int index = 0; index < 32; ++index) {
+      SmoothingOptions options;
+      options.method = static_cast<trismooth::Method>(index % 4);
+      options.form = static_cast<trismooth::Form>(index / 4 % 2);
+      options.precision = static_cast<trismooth::Precision>(index / 8 % 2);
+      options.mean_ratio.target = static_cast<TargetShape>(index / 16);
+      options.record_min_shape = true;
+      options.untangle = Untangle::off;
+      options.threads = 4;
+      options.max_sweeps = 20;
+      CAPTURE(m, index);
+      const Outcome whole = smoothed(options);
+      options.backend = &in_parts;
+      const Outcome parts = smoothed(options);
+      CHECK(parts.result.sweeps == whole.result.sweeps);
+      CHECK(parts.result.moved_vertices == whole.result.moved_vertices);
+      CHECK(parts.result.reverted_vertices == whole.result.reverted_vertices);
+      CHECK(parts.result.quadrilaterals == whole.result.quadrilaterals);
+      CHECK(parts.result.history.back().min_shape == whole.result.history.back().min_shape);
+      CHECK(same_bits(parts.xy, whole.xy));
+      moved += whole.result.moved_vertices;
+    }
+  }
+  CHECK(moved > 100000);
 }
 
 TEST_CASE("what the parts of a mesh have done until a call is cancelled is kept") {

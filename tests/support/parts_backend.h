@@ -21,9 +21,9 @@ class PartsBackend final : public trismooth::Backend {
                                                        const trismooth::ElementList& elements,
                                                        std::span<const trismooth::Point2<double>> local,
                                                        const trismooth::SmoothingOptions& options) const override {
-    return trismooth::prepare_in_parts(std::move(mesh), elements.triangles(), local, options, parts_);
+    return trismooth::prepare_in_parts(std::move(mesh), elements, local, options, parts_);
   }
-  bool takes_quadrilaterals() const override { return false; }
+  bool takes_quadrilaterals() const override { return true; }
 
  private:
   int parts_;
