@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <future>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "trismooth/base/element_list.h"
 #include "trismooth/base/errors.h"
 #include "trismooth/base/machine/call_limit.h"
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/mesh_size.h"
 #include "trismooth/base/moved_from.h"
-#include "trismooth/base/triangles_alone.h"
 #include "trismooth/cuda/device_smoother.h"
 #include "trismooth/cuda/devices.h"
 #include "trismooth/cuda/host_topology.h"
@@ -101,15 +100,16 @@ class Plan::Implementation {
     if (mesh.corners == 4) {
       static_assert(sizeof(MixedElement) == 4 * sizeof(std::int32_t));
       const auto count = static_cast<std::size_t>(mesh.element_count);
-      auto elements = download(context_, reinterpret_cast<const MixedElement*>(mesh.elements), count);
-      const std::optional<std::vector<Triangle>> alone = triangles_alone(elements);
-      if (!alone) {
+      auto listed = download(context_, reinterpret_cast<const MixedElement*>(mesh.elements), count);
+      OwnElements converted;
+      const ElementList elements = as_triangles_where_all_are(listed, converted);
+      if (!elements.are_triangles()) {
         require_quadrilaterals(options_);
         require_room(mesh, 4);
-        return std::make_unique<HostTopology>(context_, mesh.vertex_count, mesh.elements, std::move(elements),
+        return std::make_unique<HostTopology>(context_, mesh.vertex_count, mesh.elements, std::move(listed),
                                               mesh.constraints, options_.threads);
       }
-      triangles_ = DeviceBuffer<Triangle>(context_, *alone);
+      triangles_ = DeviceBuffer<Triangle>(context_, elements.triangles());
       triangles = reinterpret_cast<const std::int32_t*>(triangles_.data());
     }
     require_room(mesh, 3);
