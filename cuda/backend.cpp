@@ -255,6 +255,7 @@ class CudaBackend final : public Backend {
   }
 
   bool takes_quadrilaterals() const override { return true; }
+  bool takes_quadrilaterals_in_parts() const override { return true; }
 
   std::unique_ptr<PreparedSmoother> prepare_kept(const MeshRings& mesh, const ElementList& elements,
                                                  std::span<const Point2<double>> local,

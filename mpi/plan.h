@@ -38,8 +38,8 @@ enum class Gather : std::uint8_t {
 /// (Constraints::slide), and untangling of a mesh that has inverted triangles (without any,
 /// SmoothingOptions::untangles() changes nothing), are not there in pieces: Gather says what becomes of that. With the
 /// CUDA backend a device makes the sweeps of each rank, that of the rank's place on its machine; all else is done by
-/// the CPU. Quadrilaterals are in pieces on CPUs alone: with that backend Gather says what becomes of them, and where
-/// rank 0 does it, its CPU does. The paper's executions and orders are refused by std::invalid_argument.
+/// the CPU. The paper's executions and orders are refused by
+/// std::invalid_argument.
 class [[nodiscard]] Plan {
  public:
   /// `communicator`: a copy of it is made; the caller's may be freed. `mesh` and `constraints`: in the rank's own

@@ -40,6 +40,11 @@ using trismooth::mpi::Gather;
 using trismooth::mpi::LocalMesh;
 using trismooth::mpi::Plan;
 
+/// Who makes the sweeps of pieces; null: the CPU. Weak: a program of devices has its own.
+[[gnu::weak]] const trismooth::Backend* backend_of_pieces() {
+  return nullptr;
+}
+
 namespace trismooth::mpi_quadrilaterals_test {
 
 /// A mesh, and what is said of it.
@@ -145,11 +150,10 @@ Piece piece_of(const Whole& whole, const Cut& cut, std::uint64_t seed) {
 
 std::string figures(const SmoothingResult& r) {
   return fmt::format(
-      "{} sweeps, {}, {} updates, {} moved, {} back in {} rounds, {} free, {} colours, {} inverted, {} without area, "
+      "{} sweeps, {}, {} moved, {} back in {} rounds, {} free, {} colours, {} inverted, {} without area, "
       "{} quadrilaterals, layers: {} kept, {} left, {} records",
-      r.sweeps, to_string(r.stop_reason), r.vertex_updates, r.moved_vertices, r.reverted_vertices, r.guard_rounds,
-      r.free_vertices, r.colours, r.inverted, r.degenerate, r.quadrilaterals, r.layers.kept, r.layers.left,
-      r.history.size());
+      r.sweeps, to_string(r.stop_reason), r.moved_vertices, r.reverted_vertices, r.guard_rounds, r.free_vertices,
+      r.colours, r.inverted, r.degenerate, r.quadrilaterals, r.layers.kept, r.layers.left, r.history.size());
 }
 
 /// What is not as in the run of the whole; empty: nothing.
@@ -165,11 +169,16 @@ std::string difference(const Piece& piece, const std::vector<double>& xy, const 
   if (figures(found) != figures(whole.result)) {
     return figures(found) + " instead of " + figures(whole.result);
   }
+  // (Devices evaluate all vertices while many move.)
+  const bool is_of_cpu = found.backend == "cpu";
+  if (is_of_cpu && found.vertex_updates != whole.result.vertex_updates) {
+    return fmt::format("{} updates instead of {}", found.vertex_updates, whole.result.vertex_updates);
+  }
   for (std::size_t i = 0; i < found.history.size(); ++i) {
     const SweepRecord& a = found.history[i];
     const SweepRecord& b = whole.result.history[i];
-    if (a.evaluated != b.evaluated || a.moved != b.moved || !same_bits(a.max_relative_move, b.max_relative_move) ||
-        !same_bits(a.min_shape + 0.0, b.min_shape + 0.0)) {
+    if ((is_of_cpu && a.evaluated != b.evaluated) || a.moved != b.moved ||
+        !same_bits(a.max_relative_move, b.max_relative_move) || !same_bits(a.min_shape + 0.0, b.min_shape + 0.0)) {
       return fmt::format("sweep {} of the history", i + 1);
     }
   }
@@ -181,6 +190,7 @@ std::string in_pieces(const Whole& whole, const Cut& cut, SmoothingOptions optio
                       std::uint64_t seed = 1) {
   const Piece piece = piece_of(whole, cut, seed);
   options.mean_ratio.target_lengths = piece.lengths;
+  options.backend = backend_of_pieces();
   std::string wrong;
   try {
     Plan plan(MPI_COMM_WORLD, piece.mesh(), Constraints{.fixed = piece.fixed, .regions = piece.regions}, options,

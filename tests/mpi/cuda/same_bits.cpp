@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// So it does where devices make the sweeps, each rank on one.
+// So it does where devices make the sweeps, each rank on one, with quadrilaterals as well.
 
 #include "trismooth/cuda/backend.h"
 #include "trismooth/cuda/devices.h"
@@ -10,6 +10,12 @@
 const char* reason_to_skip();
 const char* reason_to_skip() {
   return trismooth::cuda::survey_devices().devices.empty() ? "no CUDA device" : nullptr;
+}
+
+// (See quadrilaterals.cpp, whose tests are among those of this program.)
+const trismooth::Backend* backend_of_pieces();
+const trismooth::Backend* backend_of_pieces() {
+  return &trismooth::cuda::backend();
 }
 
 using mpi_tests::check_random_meshes;
