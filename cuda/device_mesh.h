@@ -18,18 +18,17 @@ namespace trismooth::cuda {
 struct DeviceMesh {
   std::int32_t vertex_count = 0;
   std::int32_t element_count = 0;
-  const std::int32_t* elements =
-      nullptr;                      ///< corners * element_count vertex indices from 0, listed in either direction
-  DeviceConstraints constraints{};  ///< arrays on the device; all may be absent
-  std::int32_t corners = 3;         ///< numbers of each element: 3, of triangles, or 4 where quadrilaterals may be
-                                    ///< among them: corners in turn, -1 in the last place of a triangle
+  const std::int32_t* elements = nullptr;  ///< corners element_count vertex indices from 0, listed in either direction
+  DeviceConstraints constraints{};         ///< arrays on the device; all may be absent
+  std::int32_t corners = 3;                ///< numbers of each element: 3, of triangles, or 4 where quadrilaterals may
+                                           ///< be among them: corners in turn, -1 in the last place of a triangle
 };
 
-/// A mesh whose connectivity is analysed once and stays on the device; coordinates, which never leave it, are smoothed
-/// as often as they change. Of triangles, however many numbers each has, the device finds it; where quadrilaterals are
-/// among them the host does, from a copy of elements and constraints, and keeps that, and the results say so
-/// (SmoothingResult::backend_note). All work is queued on the stream; calls wait for it where they need an answer, and
-/// return when it is done.
+/// A mesh whose connectivity is analysed once and stays on the device; coordinates are smoothed as often as they
+/// change. Of triangles, however many numbers each has, the device analyses it. Where quadrilaterals are among them the
+/// host does, and keeps copies of elements and constraints, and of the coordinates it looks at those of the first call
+/// for layers; the results say so (SmoothingResult::backend_note). All work is queued on the stream; calls wait for it
+/// where they need an answer, and return when it is done.
 class Plan {
  public:
   /// `mesh.elements` must stay as they are for as long as the plan lives; the constraints are read now. The stream
@@ -65,8 +64,7 @@ class Plan {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// A Plan and its smooth(), once: analysis, sweeps and guard of a mesh in device memory, without a copy to the host and
-/// back.
+/// A Plan and its smooth(), once: analysis, sweeps and guard of a mesh in device memory, where it stays.
 SmoothingResult smooth(const DeviceMesh& mesh, double* xy, const SmoothingOptions& options = {},
                        cudaStream_t stream = nullptr);
 /// A Plan and its smooth(), once, for coordinates of float.
