@@ -20,15 +20,24 @@
 
 namespace trismooth::vertex_visits_test {
 
+constexpr int difficulties = 7;
+constexpr int nearly_even = 6;
+
+/// From 1 down to what rounding leaves of it.
+double tiny(test_meshes::Random& random) {
+  return std::ldexp(random.between(-1, 1), -random.below(60));
+}
+
 /// Neighbours of a vertex at the origin or beside it: of one kind of difficulty.
 template <class T>
 std::vector<Point2<T>> star(int size, int kind, test_meshes::Random& random) {
   std::vector<Point2<T>> ring;
-  const double scale = kind == 3 ? std::ldexp(1.0, random.below(200) - 100) : 1;
+  constexpr int most = std::numeric_limits<T>::max_exponent - 4;
+  const double scale = kind == 3 ? std::ldexp(1.0, random.below(2 * most) - most) : 1;
   for (int k = 0; k < size; ++k) {
-    const double disorder = kind == 1 ? 2 : 0.4;  // tangled, or not
+    const double disorder = kind == 1 ? 2 : kind == nearly_even ? tiny(random) : 0.4;  // tangled, or not
     const double angle = 2 * std::numbers::pi * (k + disorder * random.between(-1, 1)) / size;
-    const double radius = kind == 2 ? 1 : random.between(0.4, 1.6);
+    const double radius = kind == 2 || kind == nearly_even ? 1 : random.between(0.4, 1.6);
     ring.push_back(
         {static_cast<T>(scale * radius * std::cos(angle)), static_cast<T>(scale * radius * std::sin(angle))});
   }
@@ -42,16 +51,6 @@ std::vector<Point2<T>> star(int size, int kind, test_meshes::Random& random) {
   }
   return ring;
 }
-
-/// A ring of quadrilaterals.
-template <class T>
-struct QuadrilateralRing {
-  std::vector<Point2<T>> positions;  ///< of the neighbours, then of the vertices opposite
-
-  int size() const { return static_cast<int>(positions.size() / 2); }
-  Point2<T> operator[](int i) const { return positions[static_cast<std::size_t>(i)]; }
-  static bool is_quadrilateral(int /*i*/) { return true; }
-};
 
 /// Vertices with rings of their own, all of one size and kind.
 template <class T>
@@ -68,7 +67,10 @@ struct Stars {
                         is_centre ? T(0) : static_cast<T>(random.between(-0.3, 0.3))});
     }
     for (int v = 0; v < count; ++v) {
-      const int difficulty = random.below(6);
+      const int difficulty = random.below(difficulties);
+      if (difficulty == nearly_even) {
+        points[v] = {static_cast<T>(tiny(random)), static_cast<T>(tiny(random))};
+      }
       for (const Point2<T> point : star<T>(size, difficulty, random)) {
         neighbours.push_back(static_cast<std::int32_t>(points.size()));
         points.push_back(point);
@@ -78,7 +80,7 @@ struct Stars {
         const auto first = neighbours.end() - size;
         const Point2<T> a = points[first[k]];
         const Point2<T> b = points[first[(k + 1) % size]];
-        const auto stretch = static_cast<T>(random.between(0.7, 1.2));
+        const auto stretch = difficulty == nearly_even ? T(1) : static_cast<T>(random.between(0.7, 1.2));
         opposites.push_back(static_cast<std::int32_t>(points.size()));
         points.push_back({stretch * (a.x + b.x), stretch * (a.y + b.y)});
       }
@@ -93,7 +95,7 @@ struct Stars {
       rings().for_vertices_around(v, [&](std::int32_t other) { ring.positions.push_back(points[other]); });
       return trismooth::update_over(method, v, points[v], ring);
     };
-    return opposites.empty() ? of_ring(random_rings::RingOf<T>{}) : of_ring(QuadrilateralRing<T>{});
+    return opposites.empty() ? of_ring(random_rings::RingOf<T>{}) : of_ring(random_rings::QuadrilateralRingOf<T>{});
   }
 };
 

@@ -23,6 +23,16 @@ struct RingOf {
   trismooth::Point2<T> operator[](int i) const { return positions[static_cast<std::size_t>(i)]; }
 };
 
+/// One of quadrilaterals.
+template <class T>
+struct QuadrilateralRingOf {
+  std::vector<trismooth::Point2<T>> positions;  ///< of the neighbours, then of the vertices opposite
+
+  int size() const { return static_cast<int>(positions.size() / 2); }
+  trismooth::Point2<T> operator[](int i) const { return positions[static_cast<std::size_t>(i)]; }
+  static bool is_quadrilateral(int /*i*/) { return true; }
+};
+
 /// 3 to 14 neighbours around the origin, counter-clockwise; some rings are round, others tangled.
 template <class T>
 RingOf<T> any(test_meshes::Random& random) {
