@@ -13,16 +13,16 @@
 /// A batch whose vertices are all evaluated, shared out to the blocks of a grid.
 namespace trismooth::cuda {
 
-/// Vertices of a piece, see Pieces.
-constexpr std::int32_t piece_size = 256;
-/// Threads of such a block, and such blocks of a multiprocessor: what their registers allow. Where a method has no
-/// update in registers a thread has one vertex, and they are as many as hide the waiting for memory without taking
-/// registers away.
+/// Threads of a block that evaluates vertices, and such blocks of a multiprocessor: what their registers allow. Where a
+/// method has no update in registers a thread has one vertex, and they are as many as hide the waiting for memory
+/// without taking registers away. Quadrilaterals are worth more registers a thread than triangles.
 template <class Update, class T, class Rings>
-constexpr std::int32_t batch_threads = updates_in_registers<Update, T, Rings> ? piece_size : 128;
+constexpr std::int32_t batch_threads =
+    updates_in_registers<Update, T, Rings> && !long_rings_go_alone<Rings> ? 256 : 128;
 template <class Update, class T, class Rings>
-constexpr std::int32_t blocks_at_once = updates_in_registers<Update, T, Rings> ? (sizeof(T) == sizeof(float) ? 3 : 2)
-                                                                               : 4;
+constexpr std::int32_t blocks_at_once = updates_in_registers<Update, T, Rings> && sizeof(T) == sizeof(float)
+                                            ? (long_rings_go_alone<Rings> ? 5 : 3)
+                                            : 512 / batch_threads<Update, T, Rings>;
 constexpr std::int32_t longest_run_bits = 2;  ///< of Pieces
 
 /// The vertices of a batch in pieces of as many as a block has threads. A block takes 2^run_bits pieces that follow
@@ -32,12 +32,13 @@ struct Pieces {
   std::int32_t end;
   std::int32_t run_bits;
 
-  /// The first vertex of the block's piece `i`; the end or more where there is none.
+  /// The first vertex of the block's piece `i`; the end or more where there is none. `size`: threads of a block.
+  template <std::int32_t size>
   __device__ std::int64_t first(std::int32_t i) const {
     const std::int32_t run =
         (i >> run_bits) * static_cast<std::int32_t>(gridDim.x) + static_cast<std::int32_t>(blockIdx.x);
     const std::int32_t piece = (run << run_bits) + (i & ((1 << run_bits) - 1));
-    return begin + static_cast<std::int64_t>(piece) * piece_size;
+    return begin + static_cast<std::int64_t>(piece) * size;
   }
 };
 
@@ -50,18 +51,19 @@ __device__ __forceinline__ void sweep_pieces(const Update& method, const Pieces&
                                              const SweepData<T, Rings>& data, std::int32_t* list,
                                              ThreadTally<T>& tally) {
   using Record = decltype(fetch_record(data.rings, 0));
+  constexpr std::int32_t size = batch_threads<Update, T, Rings>;
   const auto thread = static_cast<std::int32_t>(threadIdx.x);
   const auto fetch = [&](std::int64_t first) {
     return first + thread < pieces.end ? fetch_record(data.rings, static_cast<std::int32_t>(first) + thread) : Record{};
   };
   std::int32_t piece = 0;
-  std::int64_t first = pieces.first(piece);
+  std::int64_t first = pieces.first<size>(piece);
   Record record = fetch(first);
   while (first < pieces.end) {
     int listed = 0;
     do {
       // The next record is on its way while this one is worked on.
-      const std::int64_t next_first = pieces.first(++piece);
+      const std::int64_t next_first = pieces.first<size>(++piece);
       const Record next = fetch(next_first);
       const bool active = first + thread < pieces.end;
       const std::int32_t v = static_cast<std::int32_t>(first) + thread;
