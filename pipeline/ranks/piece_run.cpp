@@ -121,6 +121,8 @@ class PieceMesh final : public StagedMesh {
     mesh_ = join_pieces(files_, *ranks_);
     constraints_ = find_rank_constraints(files_, mesh_, run_.options, *ranks_);
     topology_.emplace(mesh_, constraints_.named, owners(), run_.options.input, ranks_, run_.workers);
+    look_for_crossed_quads();
+    topology_->connect(run_.options.input, run_.workers);
     if (has_repeated_triangles(*topology_, run_.workers)) {
       need_whole_mesh("triangles that are listed again");
     }
@@ -130,10 +132,6 @@ class PieceMesh final : public StagedMesh {
                       std::back_inserter(run_.result.input.point_sets));
     points_ = points_of(files_, mesh_);
     enter_frame();
-    if (ranks_->any(
-            may_have_crossed_quads(local_.points, topology_->overlap().elements(), topology_->overlap().part.ghosts))) {
-      need_whole_mesh("quadrilaterals whose corners are not listed in turn");
-    }
     reversed_ = topology_->reversed(local_.points, run_.workers);
     layers_ = mpi::hold_layers(topology_->overlap(), local_.points, reversed_, run_.options.smoothing.used_layers(),
                                false, held_, *ranks_, run_.workers);
@@ -284,6 +282,18 @@ class PieceMesh final : public StagedMesh {
     return partition == Partition::keep
                ? std::vector<std::int32_t>{}
                : find_owners(partition, {points_of(files_, mesh_), mesh_.elements, mesh_.ghost_triangles}, *ranks_);
+  }
+
+  /// Rank 0 decides which quadrilaterals are held since their corners are not in turn. With them nothing is oriented.
+  void look_for_crossed_quads() const {
+    const mpi::Overlap& overlap = topology_->overlap();
+    if (overlap.elements().are_triangles()) {
+      return;  // on all ranks
+    }
+    const auto points = topology_->of_vertices<Point2<double>>(points_of(files_, mesh_));
+    if (ranks_->any(may_have_crossed_quads(points, overlap.elements(), overlap.part.ghosts))) {
+      need_whole_mesh("quadrilaterals whose corners are not listed in turn");
+    }
   }
 
   /// The points of the overlap in their local frame, from those of the rank's vertices, which are given up.

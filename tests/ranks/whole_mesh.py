@@ -68,6 +68,56 @@ class WholeMesh(ranks_tool.RanksTest):
             self.assertEqual("rank 0 does it" in outcome.err, ranks > 1)
         self.assertNotEqual(self.read("alone_1.vtu"), self.read("alone_2.vtu"))
 
+    def notes_of(self, ranks, name):
+        said = self.run_over(ranks, "smooth", name, "out.pvtu" if ranks else "alone.vtu").err.splitlines()
+        return [line for line in said if ": note: " in line]
+
+    def test_odd_quadrilaterals_are_held_as_by_one_process(self):
+        """Corners that are not in turn, inside and at the rim, a node that is repeated, no thickness."""
+        side = 48
+
+        def square(mesh, after):
+            return next(c for c in range(after, len(mesh.cells)) if len(mesh.cells[c]) == 4)
+
+        def cross(mesh):
+            for after in (0, len(mesh.cells) // 2):
+                cell = mesh.cells[square(mesh, after)]
+                cell[1], cell[2] = cell[2], cell[1]
+
+        def repeat(mesh):
+            for after in (len(mesh.cells) // 3, len(mesh.cells) // 2):
+                cell = mesh.cells[square(mesh, after)]
+                cell[2] = cell[0]
+
+        def open_thin_row(mesh):
+            row = range(20 * (side + 1), 21 * (side + 1))
+            copies = {v: len(mesh.points) + i for i, v in enumerate(row)}
+            mesh.points += [mesh.points[v] for v in row]
+            for cell in mesh.cells:
+                if max(cell) >= row.stop:
+                    cell[:] = [copies.get(v, v) for v in cell]
+            mesh.cells += [[v, v + 1, copies[v + 1], copies[v]] for v in row[:-1]]
+
+        for make, said, is_whole in ((cross, "2 quadrilaterals do not list their corners in turn", True),
+                                     (repeat, "2 quadrilaterals repeating a node (the first is cell", False),
+                                     (open_thin_row, "48 quadrilaterals have no thickness", True)):
+            mesh = pieces.grid_of_both_kinds(side)
+            make(mesh)
+            mesh = pieces.Mesh(mesh.points, mesh.cells)
+            write_both(self, mesh, parts=5)
+            whole = self.report("smooth", "whole.vtu", "alone.vtu")
+            alone = self.notes_of(0, "whole.vtu")
+            self.assertEqual([said in note for note in alone], [True], alone)
+            for ranks, name in ((2, "big.pvtu"), (3, "whole.vtu")):
+                with self.subTest(said=said, ranks=ranks, name=name):
+                    report = self.report_over(ranks, "smooth", name, "out.pvtu")
+                    self.assertEqual(report["coordinates_hash"], whole["coordinates_hash"])
+                    self.assertEqual(report["after"], whole["after"])
+                    self.assertEqual(report["input"]["other_cells"], whole["input"]["other_cells"])
+                    over_ranks = self.notes_of(ranks, name)
+                    self.assertIn(alone[0], over_ranks)
+                    self.assertEqual(any("rank 0 had the whole mesh" in note for note in over_ranks), is_whole)
+
     def test_single_is_what_the_report_speaks_of(self):
         for gap, options in ((0, {}), (3, {}), (0, {"ghosts": False})):
             write_both(self, self.random_mesh(700), gap=gap, **options)

@@ -55,8 +55,11 @@ RankTopology::RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> n
   const IndexView elements(mesh.elements);
   const mpi::LocalMesh local{elements, mesh.ids, owners, mesh.ghost_triangles, mesh.triangle_ids};
   const Constraints constraints{.fixed = named, .other_cells = mesh.in_other_cell};
+  naming_file(path, [&] { overlap_ = mpi::build_overlap(local, mesh.elements, constraints, false, ranks_, workers); });
+}
+
+void RankTopology::connect(const std::filesystem::path& path, Workers& workers) {
   naming_file(path, [&] {
-    overlap_ = mpi::build_overlap(local, mesh.elements, constraints, false, ranks_, workers);
     ranks_->on_all([&] {
       topology_ = overlap_.elements().visit([&](const auto& listed) {
         return connect_triangles(overlap_.vertex_count(), listed, workers, overlap_.part.ghosts);

@@ -28,6 +28,10 @@ class RankTopology {
   RankTopology(const RankMesh& mesh, std::span<const std::uint8_t> named, std::span<const std::int32_t> owners,
                const std::filesystem::path& path, std::shared_ptr<const mpi::Communicator> ranks, Workers& workers);
 
+  /// Finds how the elements hang together: what is found by topology() can be asked for then. Throws as the constructor
+  /// does. Collective.
+  void connect(const std::filesystem::path& path, Workers& workers);
+
   /// The ranks. Local.
   const mpi::Communicator& ranks() const { return *ranks_; }
   /// The rank's vertices with their triangles. Local.
