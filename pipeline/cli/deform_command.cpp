@@ -6,6 +6,7 @@
 
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/pipeline/cli/interrupt.h"
+#include "trismooth/pipeline/cli/mesh_options.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/messages.h"
 #include "trismooth/pipeline/cli/option_parsing.h"

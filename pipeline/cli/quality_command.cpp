@@ -6,6 +6,7 @@
 
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/cli/mesh_options.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/subcommands.h"

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/pipeline/cli/backend_choice.h"
+#include "trismooth/pipeline/cli/mesh_options.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/rank_job.h"

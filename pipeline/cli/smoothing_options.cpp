@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/cli/mesh_run.h"
+#include "trismooth/pipeline/cli/mesh_options.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 
 namespace trismooth {
