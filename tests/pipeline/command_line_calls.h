@@ -9,6 +9,7 @@
 
 #include "trismooth/paper/bench_command.h"
 #include "trismooth/pipeline/cli/command_line.h"
+#include "trismooth/pipeline/pipeline.h"
 
 #include "sample_run.h"
 #include "support/fake_backend.h"
@@ -73,6 +74,12 @@ inline Outcome call(const Words& words) {
 inline Outcome smooth(Words more) {
   more.insert(more.begin(), {"smooth", "plate.vtk", "out.vtk"});
   return call(more);
+}
+
+/// trismooth deform, with the pipeline itself.
+inline Outcome deform(Words words) {
+  words.insert(words.begin(), "deform");
+  return call(words, &trismooth::run_pipeline);
 }
 
 /// A build with CUDA on a machine where `problem` says why there is no device, or where there is one.

@@ -26,11 +26,6 @@ using mixed_meshes::MixedMesh;
 
 constexpr std::int32_t width = 10;  ///< squares of the grids
 
-Outcome deform(Words words) {
-  words.insert(words.begin(), "deform");
-  return call(words, &trismooth::run_pipeline);
-}
-
 /// The upper side of a grid becomes a wave, its ends and all other sides stay.
 double rise_of(const MixedMesh& mesh, std::size_t v) {
   const bool is_on_top = v >= std::size_t{width + 1} * width;

@@ -470,67 +470,6 @@ TEST_CASE("named sides of quadrilaterals hold their vertices") {
   }
 }
 
-TEST_CASE("cohesive elements of Abaqus keep their thickness, and a note says so") {
-  const ScratchFolder folder;
-  // Two rows of triangles, and between them one of elements without thickness.
-  std::string text = "*NODE\n";
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 7; ++column) {
-      const double y = row < 2 ? row : row - 1;
-      text += std::to_string(7 * row + column + 1) + ", " + std::to_string(column + (row == 1 || row == 2 ? 0.2 : 0)) +
-              ", " + std::to_string(y) + "\n";
-    }
-  }
-  const auto rows = [&](const std::string& type, int first_element, const std::vector<int>& of, bool cuts) {
-    text += "*ELEMENT, TYPE=" + type + "\n";
-    for (const int row : of) {
-      for (int column = 0; column < 6; ++column) {
-        const int a = 7 * row + column + 1;
-        const auto line = [&](const std::vector<int>& nodes) {
-          text += std::to_string(first_element++);
-          for (const int node : nodes) {
-            text += ", " + std::to_string(node);
-          }
-          text += '\n';
-        };
-        if (cuts) {
-          line({a, a + 1, a + 8});
-          line({a, a + 8, a + 7});
-        } else {
-          line({a, a + 1, a + 8, a + 7});
-        }
-      }
-    }
-  };
-  rows("CPS3", 1, {0, 2}, true);
-  rows("COH2D4", 101, {1}, false);
-  folder.write("cohesive.inp", text);
-  PipelineOptions options = options_of(Method::laplacian);
-  options.input = folder / "cohesive.inp";
-  options.output = folder / "out.inp";
-  const PipelineResult result = run_pipeline(options);
-  CHECK(any_says(result.notes, "6 cohesive or gasket elements keep their thickness"));
-  CHECK(bytes_of(*options.output) == bytes_of(options.input));
-  options.fixed_sets = {"none"};
-  CHECK(run_pipeline(options).smoothing->moved_vertices > 0);
-}
-
-TEST_CASE("quadrilaterals of cubic sides are kept, and named") {
-  MeshDocument document = document_of(MixedMesh(4, 4, 0.1, 3, 0));
-  const auto first = static_cast<std::int32_t>(document.point_count());
-  std::vector<std::int32_t> sixteen(16);
-  for (std::int32_t i = 0; i < 16; ++i) {
-    const std::int32_t row = i / 4;
-    document.points.insert(document.points.end(), {9.0 + i % 4, static_cast<double>(row), 0});
-    sixteen[static_cast<std::size_t>(i)] = first + i;
-  }
-  document.cells.append(cell_type::lagrange_quad, sixteen);
-  const PipelineResult result = smooth_document(document, options_of(Method::smart));
-  CHECK(result.input.other_cells == 1);
-  CHECK(any_says(result.notes, "1 of these cells is a quadrilateral of six nodes, or of more than nine"));
-  CHECK(any_says(result.notes, "of other types than triangle and quadrilateral"));
-}
-
 TEST_CASE("quadrilaterals of eight nodes are smoothed, their middles follow, and the report counts them") {
   MeshDocument document = document_of(MixedMesh(6, 6, 0.25, 3, 0));
   const MeshDocument corners = document;
