@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Quadrilaterals that cannot be smoothed as they are listed: they are held, and a note says why, with the way out.
+#include "trismooth/pipeline/input/odd_quads.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +68,38 @@ TEST_CASE("a quadrilateral whose corners are not listed in turn is held and told
       options.fixed_vertices = around;
       CHECK(smooth_document(expected, options).smoothing->moved_vertices > 10);
       CHECK(document.points == expected.points);
+    }
+  }
+}
+
+TEST_CASE("whoever knows the elements around some vertices finds out that quadrilaterals may not be in turn") {
+  const auto may_be_found = [](const MixedMesh& mesh) {
+    std::vector<Point2<double>> points;
+    for (const auto& [x, y] : mesh.points) {
+      points.push_back({x, y});
+    }
+    bool found = false;
+    for (std::int32_t v = 0; v < mesh.vertex_count(); ++v) {
+      std::vector<MixedElement> around;
+      std::ranges::copy_if(mesh.elements, std::back_inserter(around),
+                           [v](const auto& corners) { return std::ranges::count(corners, v) > 0; });
+      std::vector<std::uint8_t> ghosts(points.size(), 1);
+      ghosts[static_cast<std::size_t>(v)] = 0;
+      found = may_have_crossed_quads(points, around, ghosts) || found;
+    }
+    return found;
+  };
+  for (const std::uint64_t thirds : {0U, 1U}) {
+    const MixedMesh mesh(7, 6, 0.6, 5, thirds);
+    CHECK_FALSE(may_be_found(mesh));
+    for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+      if (!mesh.is_triangle(e)) {
+        MixedMesh crossed = mesh;
+        std::swap(crossed.elements[e][1], crossed.elements[e][2]);
+        MeshDocument document = document_of(crossed);
+        const bool is_held = check_document(document, {}).input.crossed_quadrilaterals > 0;
+        CHECK((may_be_found(crossed) || !is_held));
+      }
     }
   }
 }
