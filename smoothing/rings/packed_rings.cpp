@@ -79,6 +79,35 @@ BulkVector<std::int32_t> grouped_by_colour(const Colouring& colouring, std::int3
   return order;
 }
 
+/// Adds a run behind the others, to the last of them where it goes on.
+void add_run(std::vector<RingRun>& runs, const RingRun& run) {
+  if (!runs.empty() && runs.back().ring_size == run.ring_size && runs.back().kind == run.kind) {
+    runs.back().end = run.end;
+  } else {
+    runs.push_back(run);
+  }
+}
+
+std::vector<RingRun> runs_of(const RingView& rings, Workers& workers) {
+  const std::int64_t count = rings.size();
+  std::vector<std::vector<RingRun>> blocks(static_cast<std::size_t>((count + packing_grain - 1) / packing_grain));
+  workers.for_blocks(std::ssize(blocks), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t block = first; block < last; ++block) {
+      const std::int64_t end = std::min(count, (block + 1) * packing_grain);
+      for (auto v = static_cast<std::int32_t>(block * packing_grain); v < end; ++v) {
+        add_run(blocks[block], {v + 1, static_cast<std::int32_t>(rings[v].size()), rings.kind(v)});
+      }
+    }
+  });
+  std::vector<RingRun> runs;
+  for (const std::vector<RingRun>& block : blocks) {
+    for (const RingRun& run : block) {
+      add_run(runs, run);
+    }
+  }
+  return runs;
+}
+
 /// Sorts no more than a window of vertices, which ascend, by the sizes of their rings and by their kinds, and keeps the
 /// order of equal ones.
 void sort_by_ring_size(const RingView& rings, std::span<std::int32_t> vertices) {
@@ -174,6 +203,7 @@ PackedRings pack_rings(OneRings rings, std::span<const Point2<double>> points, F
   }
   sort_windows_by_ring_size(along_curve.view(), batches, order, workers);
   PackedRings packed = renumbered(along_curve.view(), order, free_count, workers);
+  packed.runs = runs_of(packed.view(), workers);
   packed.batches = std::move(batches);
   packed.colours = colours;
   packed.free_ghosts = free_ghosts;

@@ -14,6 +14,15 @@ namespace trismooth {
 class Workers;
 struct MeshPart;
 
+/// Packed vertices in turn whose rings are of one size and one kind.
+struct RingRun {
+  std::int32_t end;  ///< behind the last of them; the first is where the run before ends
+  std::int32_t ring_size;
+  RingKind kind;
+
+  friend bool operator==(const RingRun&, const RingRun&) = default;
+};
+
 /// One-rings renumbered for the sweeps: free vertices first, grouped into batches whose vertices may be updated at the
 /// same time (Form A: one batch; Form B: one a colour), each batch along a Hilbert curve; fixed vertices last. Within
 /// windows of the curve vertices are sorted by ring size and kind, so that the loops over rings are predictable.
@@ -25,6 +34,7 @@ struct PackedRings {
   BulkVector<std::int64_t> offsets;      ///< ring of packed free vertex v: neighbours[offsets[v] .. offsets[v + 1])
   BulkVector<std::int32_t> neighbours;   ///< packed numbers, in ring order
   BulkVector<std::int32_t> opposites;    ///< packed numbers, as OneRings::opposites
+  std::vector<RingRun> runs;             ///< of the free vertices, as long as may be
   std::vector<std::int32_t> batches{0};  ///< batch b holds packed vertices batches[b] .. batches[b + 1]
   std::int32_t colours = 0;              ///< 0 for Form A
   std::int32_t free_ghosts = 0;          ///< vertices behind the free ones that other parts of the mesh move

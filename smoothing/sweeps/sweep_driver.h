@@ -221,7 +221,7 @@ class SweepDriver {
           to[v] = from[v];
         }
       }
-      for_runs_of_one_size(view_, vertices, [&](std::span<const std::int32_t> run, int ring_size, RingKind kind) {
+      for_runs_of_one_size(rings_.runs, vertices, [&](std::span<const std::int32_t> run, int ring_size, RingKind kind) {
         visits.visit(run, ring_size, kind, settle);
       });
     }

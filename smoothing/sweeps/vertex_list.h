@@ -9,7 +9,7 @@
 #include <numeric>
 #include <span>
 
-#include "trismooth/smoothing/rings/one_rings.h"
+#include "trismooth/smoothing/rings/packed_rings.h"
 
 namespace trismooth {
 
@@ -78,18 +78,19 @@ class VertexList {
   std::array<std::int32_t, enough + word> vertices_;
 };
 
-/// Calls visit(vertices, ring_size, kind) for the runs of vertices whose rings are of one size and one kind.
+/// Calls visit(vertices, ring_size, kind) for those of `vertices`, which ascend, that are of one run. `runs`: see
+/// PackedRings.
 template <class Visit>
-void for_runs_of_one_size(const RingView& rings, std::span<const std::int32_t> vertices, const Visit& visit) {
-  for (std::size_t begin = 0; begin < vertices.size();) {
-    const std::size_t size = rings[vertices[begin]].size();
-    const RingKind kind = rings.kind(vertices[begin]);
-    std::size_t end = begin + 1;
-    while (end < vertices.size() && rings[vertices[end]].size() == size && rings.kind(vertices[end]) == kind) {
-      ++end;
+void for_runs_of_one_size(std::span<const RingRun> runs, std::span<const std::int32_t> vertices, const Visit& visit) {
+  if (vertices.empty()) {
+    return;
+  }
+  for (auto run = std::ranges::upper_bound(runs, vertices.front(), {}, &RingRun::end); !vertices.empty(); ++run) {
+    const auto count = static_cast<std::size_t>(std::ranges::lower_bound(vertices, run->end) - vertices.begin());
+    if (count > 0) {
+      visit(vertices.first(count), run->ring_size, run->kind);
     }
-    visit(vertices.subspan(begin, end - begin), static_cast<int>(size), kind);
-    begin = end;
+    vertices = vertices.subspan(count);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "trismooth/base/machine/workers.h"
@@ -37,6 +38,17 @@ void check_packed(const PackedRings& packed, const OneRings& rings) {
   std::iota(all.begin(), all.end(), 0);
   REQUIRE(numbers == all);
   REQUIRE(packed.view().size() == packed.free_count());
+  std::int32_t in_run = 0;
+  for (std::size_t r = 0; r < packed.runs.size(); ++r) {
+    const trismooth::RingRun& run = packed.runs[r];
+    REQUIRE(run.end > in_run);
+    REQUIRE((r == 0 || run.ring_size != packed.runs[r - 1].ring_size || run.kind != packed.runs[r - 1].kind));
+    for (; in_run < run.end; ++in_run) {
+      REQUIRE(std::cmp_equal(packed.view()[in_run].size(), run.ring_size));
+      REQUIRE(packed.view().kind(in_run) == run.kind);
+    }
+  }
+  REQUIRE(in_run == packed.free_count());
   for (std::int32_t v = 0; v < packed.vertex_count(); ++v) {
     const std::int32_t input = packed.input_index[v];
     REQUIRE(packed.view().is_free(v) == rings.is_free(input));
@@ -97,6 +109,7 @@ TEST_CASE("the packing does not depend on the number of threads") {
       CHECK(found.input_index == expected.input_index);
       CHECK(found.offsets == expected.offsets);
       CHECK(found.neighbours == expected.neighbours);
+      CHECK(found.runs == expected.runs);
       CHECK(found.batches == expected.batches);
       CHECK(found.colours == expected.colours);
     }

@@ -43,7 +43,7 @@ TEST_CASE("lists hold the marked vertices of a block, each once and in order, an
   }
 }
 
-TEST_CASE("runs of one ring size follow each other, and none could be longer") {
+TEST_CASE("listed vertices of a run of one ring size and kind are visited together") {
   test_meshes::Random random(6);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<std::int64_t> offsets{0};
@@ -64,19 +64,30 @@ TEST_CASE("runs of one ring size follow each other, and none could be longer") {
       }
     }
     const trismooth::RingView rings{offsets, neighbours, {}, opposites};
-    std::vector<std::int32_t> vertices;
+    std::vector<trismooth::RingRun> runs;
     for (std::int32_t v = 0; v < 100; ++v) {
-      if (random.below(3) > 0) {
+      const auto size = static_cast<std::int32_t>(rings[v].size());
+      if (runs.empty() || runs.back().ring_size != size || runs.back().kind != kinds[static_cast<std::size_t>(v)]) {
+        runs.push_back({v, size, kinds[static_cast<std::size_t>(v)]});
+      }
+      runs.back().end = v + 1;
+    }
+    std::vector<std::int32_t> vertices;
+    const int density = random.below(11);
+    for (std::int32_t v = 0; v < 100; ++v) {
+      if (random.below(10) < density) {
         vertices.push_back(v);
       }
     }
     std::vector<std::int32_t> found;
-    std::pair<int, trismooth::RingKind> before{0, trismooth::RingKind::triangles};
+    std::int32_t end_before = 0;
     trismooth::for_runs_of_one_size(
-        rings, vertices, [&](std::span<const std::int32_t> run, int ring_size, trismooth::RingKind kind) {
+        runs, vertices, [&](std::span<const std::int32_t> run, int ring_size, trismooth::RingKind kind) {
           REQUIRE(!run.empty());
-          REQUIRE(std::pair(ring_size, kind) != before);
-          before = {ring_size, kind};
+          const auto all = std::ranges::upper_bound(runs, run.front(), {}, &trismooth::RingRun::end);
+          REQUIRE(run.front() >= end_before);
+          REQUIRE(run.back() < all->end);
+          end_before = all->end;
           REQUIRE(std::ranges::all_of(run, [&](std::int32_t v) {
             return std::ssize(rings[v]) == ring_size && kinds[static_cast<std::size_t>(v)] == kind;
           }));
