@@ -18,6 +18,7 @@
 #include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/collapsed_quads.h"
+#include "trismooth/mesh_io/document/cells/halved_quads.h"
 #include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 #include "trismooth/mesh_io/document/cells/straight_cells.h"
 #include "trismooth/mesh_io/document/cells/strip_triangles.h"
@@ -78,11 +79,17 @@ std::string describe_straight(const MeshDocument& document, const MeshDocument& 
          (points == 0 ? "" : ", without " + std::to_string(points) + " points in the middle of sides");
 }
 
-/// What a format that holds triangles only gets in place of that many quadrilaterals that repeat a corner.
-std::string describe_collapsed(std::size_t quads, FileFormat target) {
+/// What a format that holds triangles only gets in place of that many quadrilaterals.
+std::string describe_halved(std::size_t quads, FileFormat target) {
   return std::string(title_of(target)) + " holds triangles only: " +
-         counted(quads, "quadrilateral that repeats a corner is written as the triangle that it is",
-                 "quadrilaterals that repeat a corner are written as the triangles that they are");
+         counted(quads, "quadrilateral is written as the two into which its shorter diagonal cuts it",
+                 "quadrilaterals are written as the two each into which their shorter diagonals cut them");
+}
+
+/// What a format gets in place of that many quadrilaterals that repeat a corner, if it does not hold these.
+std::string describe_collapsed(std::size_t quads, FileFormat target) {
+  return std::string(title_of(target)) + " holds no quadrilaterals that repeat a corner: " +
+         counted(quads, "is written as the triangle that it is", "are written as the triangles that they are");
 }
 
 /// The document as the target can hold it, where it cannot hold strips, curved cells, quadrilaterals or cells of any
@@ -99,15 +106,20 @@ std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat tar
     losses.push_back(describe_strips(now(), expanded, target));
     changed = std::move(expanded);
   }
-  if (const std::size_t quads = holds.quads ? 0 : count_collapsed_quads(now()); quads > 0) {
+  if (const std::size_t quads = holds.collapsed_quads ? 0 : count_collapsed_quads(now()); quads > 0) {
     losses.push_back(describe_collapsed(quads, target));
     changed = with_collapsed_quads_as_triangles(now());
   }
-  const CurvedCells not_held = holds.curved_cells ? CurvedCells::eight_node_quads : CurvedCells::all;
-  if (!(holds.curved_cells && holds.eight_node_quads) && has_curved_cells(now(), not_held)) {
+  const bool holds_curved = holds.curved_cells && (holds.quads || !has_curved_quads(now()));
+  const CurvedCells not_held = holds_curved ? CurvedCells::eight_node_quads : CurvedCells::all;
+  if (!(holds_curved && holds.eight_node_quads) && has_curved_cells(now(), not_held)) {
     MeshDocument straight = with_straight_cells(now(), not_held);
     losses.push_back(describe_straight(now(), straight, not_held, target));
     changed = std::move(straight);
+  }
+  if (const std::size_t quads = holds.quads ? 0 : count_quads(now()); quads > 0) {
+    losses.push_back(describe_halved(quads, target));
+    changed = with_halved_quads(now());
   }
   return changed;
 }

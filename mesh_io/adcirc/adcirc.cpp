@@ -18,7 +18,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr std::array adcirc_types{cell_type::triangle};
+constexpr std::array adcirc_types{cell_type::triangle, cell_type::quad};
 
 /// The boundary that a set of points is written as. Those of weirs have heights, which sets have not.
 std::optional<AdcircBoundary> written_boundary(const NamedSet& set) {
@@ -71,22 +71,23 @@ void write_adcirc(const std::filesystem::path& path, const MeshDocument& documen
   require_flat_points(path, "ADCIRC", document);
   const CellList& cells = document.cells;
   const std::vector<double> depths = find_place_values(document, PlaceValue::depth).values;
-  // Rows of triangles are numbered one after the other.
-  std::vector<std::size_t> triangles;
+  // Rows of elements are numbered one after the other.
+  std::vector<std::size_t> elements;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    if (cells.types[cell] == cell_type::triangle) {
-      triangles.push_back(cell);
+    if (std::ranges::find(adcirc_types, cells.types[cell]) != adcirc_types.end()) {
+      elements.push_back(cell);
     }
   }
   TextMeshWriter writer(path, workers);
   writer.write_line([](TextLines& line) { line.word("grid"); });
-  writer.write_line([&](TextLines& line) { line.number(triangles.size()).number(document.point_count()); });
+  writer.write_line([&](TextLines& line) { line.number(elements.size()).number(document.point_count()); });
   writer.write_lines(document.point_count(), [&](TextLines& lines, std::size_t i) {
     lines.number(i + 1).number(document.points[3 * i]).number(document.points[3 * i + 1]).number(depths[i]).end_line();
   });
-  writer.write_lines(triangles.size(), [&](TextLines& lines, std::size_t i) {
-    lines.number(i + 1).number(3);
-    for (const std::int32_t vertex : cells[triangles[i]]) {
+  writer.write_lines(elements.size(), [&](TextLines& lines, std::size_t i) {
+    const auto corners = cells[elements[i]];
+    lines.number(i + 1).number(corners.size());
+    for (const std::int32_t vertex : corners) {
       lines.number(std::int64_t{vertex} + 1);
     }
     lines.end_line();
@@ -110,7 +111,8 @@ std::vector<std::string> lost_in_adcirc(const MeshDocument& document) {
       cells.append(document.cells.types[cell], document.cells[cell]);
     }
   }
-  std::vector<std::string> sentences = describe_lost_cells("ADCIRC", "triangles", adcirc_types, cells);
+  std::vector<std::string> sentences =
+      describe_lost_cells("ADCIRC", "triangles and quadrilaterals", adcirc_types, cells);
   std::ranges::copy(boundaries.losses, std::back_inserter(sentences));
   std::ranges::move(describe_lost_arrays("ADCIRC", document, {.point = depths}), std::back_inserter(sentences));
   if (!lost.point_sets.empty()) {
@@ -138,7 +140,7 @@ const Codec adcirc_codec{{FileFormat::adcirc,
                           "adcirc",
                           "ADCIRC",
                           {".14", ".grd", ".gr3", ".ll"},
-                          {.names = true, .quads = false, .curved_cells = false}},
+                          {.names = true, .collapsed_quads = false, .curved_cells = false}},
                          &read_adcirc,
                          &write_adcirc,
                          &lost_in_adcirc};

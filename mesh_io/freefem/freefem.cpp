@@ -69,11 +69,15 @@ std::vector<std::string> lost_in_freefem(const MeshDocument& document) {
 
 }  // namespace
 
-const Codec freefem_codec{
-    {FileFormat::freefem, "freefem", "FreeFem", {".msh"}, {.names = true, .quads = false, .curved_cells = false}, 1},
-    &read_freefem,
-    &write_freefem,
-    &lost_in_freefem,
-    &begins_as_freefem};
+const Codec freefem_codec{{FileFormat::freefem,
+                           "freefem",
+                           "FreeFem",
+                           {".msh"},
+                           {.names = true, .quads = false, .collapsed_quads = false, .curved_cells = false},
+                           1},
+                          &read_freefem,
+                          &write_freefem,
+                          &lost_in_freefem,
+                          &begins_as_freefem};
 
 }  // namespace trismooth

@@ -5,10 +5,11 @@
 
 namespace trismooth {
 
-const Codec stl_codec{{FileFormat::stl, "stl", "STL", {".stl"}, {.quads = false, .curved_cells = false}},
-                      &read_stl,
-                      &write_stl,
-                      &what_stl_loses,
-                      &is_stl};
+const Codec stl_codec{
+    {FileFormat::stl, "stl", "STL", {".stl"}, {.quads = false, .collapsed_quads = false, .curved_cells = false}},
+    &read_stl,
+    &write_stl,
+    &what_stl_loses,
+    &is_stl};
 
 }  // namespace trismooth

@@ -6,12 +6,15 @@
 
 namespace trismooth {
 
-const Codec triangle_codec{
-    {FileFormat::triangle, "triangle", "Triangle", {".node", ".ele"}, {.names = true, .quads = false}},
-    &read_triangle,
-    &write_triangle,
-    &lost_in_triangle,
-    nullptr,
-    &triangle_output_partner};
+const Codec triangle_codec{{FileFormat::triangle,
+                            "triangle",
+                            "Triangle",
+                            {".node", ".ele"},
+                            {.names = true, .quads = false, .collapsed_quads = false}},
+                           &read_triangle,
+                           &write_triangle,
+                           &lost_in_triangle,
+                           nullptr,
+                           &triangle_output_partner};
 
 }  // namespace trismooth

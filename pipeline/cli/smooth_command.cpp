@@ -133,7 +133,7 @@ void add_device_options(CLI::App& command, SmoothSettings& settings) {
       ->group(option_group::running);
   add_enum_option(command, "--topology", options.topology,
                   "Who finds the neighbours; the result is the same. auto: the GPU where it smooths, else OpenMesh "
-                  "halfedges up to 16 million triangles; host: the triangle list, in less time and memory")
+                  "halfedges up to 16 million elements; host: the list of elements, in less time and memory")
       ->group(option_group::running);
   const char* const group = "Running on CUDA (the CPU accepts and ignores them, except soa, unordered)";
   add_enum_option(command, "--layout", options.layout,

@@ -98,9 +98,9 @@ std::string_view topology_text(Topology found_by) {
     case Topology::halfedge:
       return "found by OpenMesh halfedges";
     case Topology::device:
-      return "found by the device, from the triangle list";
+      return "found by the device, from the list of elements";
     default:
-      return "found by the host, from the triangle list";
+      return "found by the host, from the list of elements";
   }
 }
 

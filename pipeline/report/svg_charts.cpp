@@ -152,8 +152,7 @@ std::string shape_histogram_svg(const QualityReport& before, const QualityReport
     const double share = static_cast<double>(i) / labels;
     content += x_label(zero + share * (1 - zero), fmt::format("{:.1f}", share));
   }
-  return chart("Histogram of shape", "elements, on a logarithmic scale",
-               content + axis_title("shape (1 = equilateral)"));
+  return chart("Histogram of shape", "elements, on a logarithmic scale", content + axis_title("shape (1 = best)"));
 }
 
 std::string convergence_svg(std::span<const SweepRecord> history) {

@@ -60,12 +60,18 @@ std::string warning_of_layers(const LayersResult& layers) {
 }
 
 /// What is to be done about inverted elements that remain.
-std::string_view what_mends(const std::optional<SmoothingResult>& smoothing) {
+std::string_view what_mends(const PipelineResult& result) {
+  const std::optional<SmoothingResult>& smoothing = result.smoothing;
   if (smoothing && has_no_time_for_sweeps(*smoothing)) {
     return "there was no time to mend them all: give --time-limit more";
   }
-  return smoothing && smoothing->untangling ? "what held vertices fold nothing mends: let some of them go"
-                                            : "--untangle on mends what can be mended";
+  if (!smoothing || !smoothing->untangling) {
+    return "--untangle on mends what can be mended";
+  }
+  return result.quadratic_after && result.quadratic_after->invalid > 0
+             ? "corners go back where the nodes between them would make an element that is not valid: put these nearer "
+               "to the middles of their sides, and let held vertices go"
+             : "what held vertices fold nothing mends: let some of them go";
 }
 
 }  // namespace
@@ -130,12 +136,12 @@ std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
     const bool is_one = inverted == 1;
     warnings.push_back(fmt::format("{} inverted {} {} ({} before); {}", inverted, is_one ? one : several,
                                    is_one ? "remains" : "remain", result.before.inverted - crossed,
-                                   what_mends(result.smoothing)));
+                                   what_mends(result)));
   }
   if (result.quadratic_after && result.quadratic_after->invalid > 0) {
     const QuadraticQuality& after = *result.quadratic_after;
     warnings.push_back(
-        fmt::format("{} of {} {} {} not valid ({} before); middles nearer to the middles of their sides make them so",
+        fmt::format("{} of {} {} {} not valid ({} before); they may be with nodes nearer to the middles of their sides",
                     after.invalid, after.elements, quadratic_words(after).second, after.invalid == 1 ? "is" : "are",
                     result.quadratic_before->invalid));
   }

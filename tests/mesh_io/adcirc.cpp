@@ -178,7 +178,7 @@ TEST_CASE("ADCIRC: a mesh of another format is written with what the grid holds,
         "2 20 = Number of nodes for land boundary 1\n2\n3\n");
   CHECK(what_is_lost(document, FileFormat::adcirc) ==
         std::vector<std::string>{
-            "ADCIRC holds triangles only: 1 cell of type line is not written",
+            "ADCIRC holds triangles and quadrilaterals only: 1 cell of type line is not written",
             "ADCIRC holds no point arrays: heat is not written", "ADCIRC holds no cell arrays: region is not written",
             "ADCIRC holds boundaries without heights by their names ('open boundary 1', 'land boundary 1 (type 20)'), "
             "no other sets of points: weir 2 (type 24), inlet are not written"});
@@ -186,6 +186,19 @@ TEST_CASE("ADCIRC: a mesh of another format is written with what the grid holds,
   CHECK(again.points == document.points);
   CHECK(values_of<double>(again.point_arrays, "depth") == std::vector<double>{10.5, -2, 3, 0});
   CHECK(again.point_sets == std::vector<NamedSet>{document.point_sets[1], document.point_sets[0]});
+}
+
+TEST_CASE("ADCIRC output from elsewhere has quadrilaterals beside triangles, as SCHISM reads them") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0};
+  document.cells.append(cell_type::quad, std::vector<std::int32_t>{0, 1, 2, 3});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{1, 4, 2});
+  const std::string written = adcirc.written(document);
+  CHECK(written.starts_with("grid\n2 5\n"));
+  CHECK(written.find("\n1 4 1 2 3 4\n2 3 2 5 3\n") != std::string::npos);
+  for (const std::string& sentence : what_is_lost(document, FileFormat::adcirc)) {
+    CHECK(sentence.find("quad") == std::string::npos);
+  }
 }
 
 /// A square of 4 by 4 cells of two triangles without its middle four, listed one way or the other in turn, and lines.
@@ -264,7 +277,7 @@ TEST_CASE("ADCIRC: groups of lines that can be no boundary are said, and sets of
     CHECK(std::ranges::find(lost, "ADCIRC gets no boundary from the lines of " + loss.name + ", " + loss.sentence) !=
           lost.end());
     CHECK(adcirc.read(adcirc.written(document)).point_sets.empty());
-    CHECK(lost.front().starts_with("ADCIRC holds triangles only: "));
+    CHECK(lost.front().starts_with("ADCIRC holds triangles and quadrilaterals only: "));
   }
   MeshDocument document = pond({{0, 1}});
   name_lines(document, {"open"});

@@ -8,6 +8,7 @@
 
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/collapsed_quads.h"
+#include "trismooth/mesh_io/document/cells/halved_quads.h"
 #include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 #include "trismooth/mesh_io/mesh_file.h"
 
@@ -186,11 +187,44 @@ TEST_CASE("formats that hold triangles only get those that quadrilaterals and po
       continue;
     }
     CHECK(text.written(quads) == text.written(triangles));
-    CHECK(
-        what_is_lost(quads, format).front() ==
-        std::string(title_of(format)) +
-            " holds triangles only: 3 quadrilaterals that repeat a corner are written as the triangles that they are");
+    CHECK(what_is_lost(quads, format).front() ==
+          std::string(title_of(format)) +
+              " holds no quadrilaterals that repeat a corner: 3 are written as the triangles that they are");
   }
+}
+
+TEST_CASE(
+    "where a format holds triangles only, a quadrilateral is written as the two of its shorter diagonal that is "
+    "inside") {
+  MeshDocument document;
+  // A square that leans, one that leans the other way, and an arrow head whose shorter diagonal is outside.
+  document.points = {0, 0, 0, 2, 0, 0, 3, 2, 0, 1, 2, 0, 5, 0, 0, 3.5, 2, 0, 2, 3, 0, 2, 9, 0};
+  document.cells.append(cell_type::quad, std::vector<std::int32_t>{0, 1, 2, 3});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{1, 4, 2});
+  document.cells.append(cell_type::polygon, std::vector<std::int32_t>{3, 6, 2, 7});
+  document.cells.append(cell_type::quad, std::vector<std::int32_t>{4, 5, 2, 1});
+  document.cell_arrays = {make_data_array("freefem:label", 1, std::vector<std::int32_t>{7, 8, 9, 6})};
+  document.format = FileFormat::freefem;
+  const TextFormat freefem{std::string(extensions_of(FileFormat::freefem).front())};
+  const MeshDocument read = freefem.read(freefem.written(document));
+  CHECK(read.cells.types == std::vector<std::uint8_t>(7, cell_type::triangle));
+  CHECK(read.cells.connectivity ==
+        std::vector<std::int32_t>{1, 2, 3, 1, 3, 0, 1, 4, 2, 6, 2, 7, 6, 7, 3, 5, 2, 1, 5, 1, 4});
+  CHECK(what_is_lost(document, FileFormat::freefem).front() ==
+        "FreeFem holds triangles only: 3 quadrilaterals are written as the two each into which their shorter diagonals "
+        "cut them");
+}
+
+TEST_CASE("where a format holds triangles only, halves of quadrilaterals are in their sets") {
+  MeshDocument document;
+  document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0};
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{1, 4, 2});
+  document.cells.append(cell_type::quad, std::vector<std::int32_t>{0, 1, 2, 3});
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
+  document.cell_sets = {{"all", {2, 1, 0}}, {"rest", {0}}};
+  const MeshDocument halved = trismooth::with_halved_quads(document);
+  CHECK(halved.cells.offsets == std::vector<std::int64_t>{0, 3, 6, 9, 11});
+  CHECK(halved.cell_sets == std::vector<NamedSet>{{"all", {3, 1, 2, 0}}, {"rest", {0}}});
 }
 
 TEST_CASE(

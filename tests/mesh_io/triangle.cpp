@@ -245,11 +245,13 @@ TEST_CASE("Triangle output: groups of triangles are the attribute, other things 
   document.cell_arrays.push_back(trismooth::make_data_array("load", 1, std::vector<double>(5)));
   const Pair written = written_pair(document);
   CHECK(written.nodes == "5 2 0 0\n1 0 0\n2 2 0\n3 2 2\n4 0 2\n5 0.75 1.25\n");
-  CHECK(written.elements == "4 3 1\n1 1 2 5 3\n2 2 3 5 3\n3 3 4 5 4\n4 4 1 5 0\n");
+  CHECK(written.elements == "6 3 1\n1 1 2 5 3\n2 2 3 5 3\n3 3 4 5 4\n4 4 1 5 0\n5 1 2 3 0\n6 1 3 4 0\n");
   CHECK(what_is_lost(document, FileFormat::triangle) ==
-        std::vector<std::string>{"Triangle holds triangles only: 1 cell of type quad is not written",
-                                 "Triangle holds no cell arrays: load is not written",
-                                 "Triangle holds no names of values: those of gmsh:physical are not written"});
+        std::vector<std::string>{
+            "Triangle holds triangles only: 1 quadrilateral is written as the two into which its shorter "
+            "diagonal cuts it",
+            "Triangle holds no cell arrays: load is not written",
+            "Triangle holds no names of values: those of gmsh:physical are not written"});
 }
 
 TEST_CASE("Triangle output: attributes and markers that another format kept are written again") {

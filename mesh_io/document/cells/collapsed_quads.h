@@ -25,7 +25,7 @@ std::optional<CollapsedQuad> triangle_of_quad(std::uint8_t type, std::span<const
 std::size_t count_collapsed_quads(const MeshDocument& document);
 
 /// The document with triangles of three or six nodes in place of such quadrilaterals; without an original. For formats
-/// that hold triangles only. Linear.
+/// that do not hold them. Linear.
 MeshDocument with_collapsed_quads_as_triangles(const MeshDocument& document);
 
 }  // namespace trismooth

@@ -2,9 +2,8 @@
 #include "trismooth/mesh_io/document/cells/strip_triangles.h"
 
 #include <algorithm>
-#include <vector>
 
-#include "trismooth/mesh_io/document/array_rows.h"
+#include "trismooth/mesh_io/document/cells/replaced_cells.h"
 
 namespace trismooth {
 
@@ -13,23 +12,14 @@ bool has_strips(const MeshDocument& document) {
 }
 
 MeshDocument with_strips_as_triangles(const MeshDocument& document) {
-  MeshDocument expanded = document;
-  expanded.original = nullptr;
-  expanded.cells = {};
-  std::vector<std::size_t> cell_of;  // of each new cell
-  for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
-    if (document.cells.types[cell] == cell_type::triangle_strip) {
-      for_each_strip_triangle(document.cells[cell],
-                              [&](const Triangle& triangle) { expanded.cells.append(cell_type::triangle, triangle); });
-    } else {
-      expanded.cells.append(document.cells.types[cell], document.cells[cell]);
+  return with_replaced_cells(document, [&document](std::size_t cell, CellList& cells) {
+    if (document.cells.types[cell] != cell_type::triangle_strip) {
+      return false;
     }
-    cell_of.resize(expanded.cells.size(), cell);
-  }
-  for (DataArray& array : expanded.cell_arrays) {
-    array = with_rows(array, cell_of);
-  }
-  return expanded;
+    for_each_strip_triangle(document.cells[cell],
+                            [&](const Triangle& triangle) { cells.append(cell_type::triangle, triangle); });
+    return true;
+  });
 }
 
 }  // namespace trismooth
