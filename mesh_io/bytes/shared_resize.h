@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,11 +31,12 @@ inline void populate_memory(const void* begin, std::size_t bytes, Workers& worke
 #endif
 }
 
-/// Room for that many values: values.resize() costs little then.
+/// Room for that many values: values.resize() costs little then. (For more than asked for, where it has to grow again:
+/// a file may have any number of sections.)
 template <class T>
 void shared_reserve(std::vector<T>& values, std::size_t size, Workers& workers) {
   if (size > values.capacity()) {
-    values.reserve(size);
+    values.reserve(std::max(size, values.capacity() + values.capacity() / 2));
     populate_memory(values.data() + values.size(), (size - values.size()) * sizeof(T), workers);
   }
 }

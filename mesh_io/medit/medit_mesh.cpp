@@ -2,6 +2,7 @@
 #include "trismooth/mesh_io/medit/medit_mesh.h"
 
 #include <algorithm>
+#include <set>
 #include <span>
 
 #include "trismooth/base/text/list_text.h"
@@ -108,6 +109,15 @@ std::optional<MeditMesh::WrongNumber> MeditMesh::finish() {
   }
   if (says_anything(cell_refs)) {
     document.cell_arrays.push_back(make_integer_array("medit:ref", std::move(cell_refs)));
+  }
+  std::set<std::uint8_t> types;
+  for (const Section& section : sections_) {
+    types.insert(section.type);
+  }
+  if (types.size() < sections_.size()) {
+    document.notes.emplace_back(
+        "Cells of a type stand in several sections: Medit output that is text where the input is binary, or the other "
+        "way round, has one section of each, and so another order of cells.");
   }
   if (!has_end) {
     document.notes.emplace_back("The file has no End: nothing says whether something is missing there.");

@@ -170,8 +170,7 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
   mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating,
                                     mesh.elements.are_triangles() ? "triangle" : "triangle and quadrilateral");
   if (collapsed > 0) {
-    mesh.notes.push_back(counted(collapsed, "quadrilateral repeats a corner: it is smoothed as the triangle that it is",
-                                 "quadrilaterals repeat a corner: they are smoothed as the triangles that they are"));
+    mesh.notes.push_back(note_of_collapsed_quads(collapsed));
   }
   note_high_order(mesh.high_order_triangles, "triangle", "seven, ten or more nodes (cubic triangles and the like)",
                   mesh);
@@ -266,6 +265,11 @@ void RepeatingCells::count(std::uint8_t type, std::span<const std::int32_t> vert
   if (is_repeating_quad(type, vertices) && quads++ == 0) {
     first_quad = cell;
   }
+}
+
+std::string note_of_collapsed_quads(std::int64_t quads) {
+  return counted(quads, "quadrilateral repeats a corner: it is smoothed as the triangle that it is",
+                 "quadrilaterals repeat a corner: they are smoothed as the triangles that they are");
 }
 
 std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, const RepeatingCells& repeating,

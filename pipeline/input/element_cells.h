@@ -119,6 +119,9 @@ bool is_flat_triangle(std::uint8_t type, std::span<const std::int32_t> vertices)
 /// Whether the cell would be a quadrilateral, did it not repeat a node, and is no triangle. Constant time.
 bool is_repeating_quad(std::uint8_t type, std::span<const std::int32_t> vertices);
 
+/// The sentence about so many quadrilaterals, at least one, that are triangles: CellTriangle::is_quad.
+std::string note_of_collapsed_quads(std::int64_t quads);
+
 /// How many triangles of a mesh a cell of that type counts as, 0 where it is none.
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices);
 

@@ -24,6 +24,9 @@ OwnCells count_own_cells(const Piece& piece) {
     if (has_triangles[c] == 0) {
       ++count.others;
       count.repeating.count(cells.types[c], cells[c], c);
+      count.held_quads += quad_of_cell(cells.types[c], cells[c]) ? 1 : 0;
+    } else if (const auto triangle = triangle_of_cell(cells.types[c], cells[c])) {
+      count.collapsed_quads += triangle->is_quad ? 1 : 0;
     }
   }
   return count;

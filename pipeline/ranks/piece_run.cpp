@@ -315,7 +315,10 @@ class PieceMesh final : public StagedMesh {
     PipelineResult& result = run_.result;
     const mpi::Overlap& overlap = topology_->overlap();
     cells_ = count_rank_cells(files_, *ranks_);
-    agree(*ranks_, [&] { require_elements(topology_->triangle_count(), cells_.cells, run_.options.input); });
+    agree(*ranks_, [&] {
+      require_elements(topology_->triangle_count(), cells_.cells, run_.options.input,
+                       {.held_quads = cells_.held_quads});
+    });
     ReasonCounts reasons{};
     std::int64_t vertices = 0;
     for (std::int32_t v = 0; v < overlap.vertex_count(); ++v) {
@@ -333,6 +336,9 @@ class PieceMesh final : public StagedMesh {
         notes_of_other_cells(cells_.others, cells_.repeating,
                              overlap.elements().are_triangles() ? "triangle" : "triangle and quadrilateral"),
         std::back_inserter(result.notes));
+    if (cells_.collapsed_quads > 0) {
+      run_.note(note_of_collapsed_quads(cells_.collapsed_quads));
+    }
     result.input.fixed_array = constraints_.fixed_array;
     result.input.fixed_array_vertices = topology_->count_vertices(constraints_.by_array);
     result.input.fixed_ids_vertices = constraints_.listed;

@@ -173,9 +173,10 @@ std::vector<std::string> warnings_of_deformation(const PipelineResult& result) {
   std::vector<std::string> warnings;
   const auto [invalid, first_invalid] = in_steps([](const DeformedStep& step) { return step.invalid() > 0; });
   if (invalid > 0) {
-    std::string text =
-        fmt::format("triangles are inverted or degenerate{}: {}{}", where(invalid, first_invalid), worst.invalid(),
-                    count == 1 ? "" : fmt::format(" in step {}, the worst", deformation.worst + 1));
+    std::string text = fmt::format("{} are inverted or degenerate{}: {}{}",
+                                   element_words(result.before.triangles, result.before.quadrilaterals).several,
+                                   where(invalid, first_invalid), worst.invalid(),
+                                   count == 1 ? "" : fmt::format(" in step {}, the worst", deformation.worst + 1));
     if (result.before.inverted + result.before.degenerate > 0) {
       text += fmt::format(" ({} are in the mesh's file)", result.before.inverted + result.before.degenerate);
     }
@@ -193,7 +194,7 @@ std::vector<std::string> warnings_of_deformation(const PipelineResult& result) {
       crossing > 0) {
     warnings.push_back(fmt::format(
         "the boundary crosses or touches itself{}: {} of its edges; a mesh with that boundary lies on itself or over "
-        "itself, whether triangles are inverted or not",
+        "itself, whether elements are inverted or not",
         where(crossing, first), counted(deformation.steps[first].crossings, "pair", "pairs")));
   }
   if (const auto [overlapping, first] = in_steps([](const DeformedStep& step) { return step.overlaps > 0; });

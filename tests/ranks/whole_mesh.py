@@ -73,7 +73,7 @@ class WholeMesh(ranks_tool.RanksTest):
         return [line for line in said if ": note: " in line]
 
     def test_odd_quadrilaterals_are_held_as_by_one_process(self):
-        """Corners that are not in turn, inside and at the rim, a node that is repeated, no thickness."""
+        """Corners that are not in turn, inside and at the rim, nodes that are repeated, no thickness."""
         side = 48
 
         def square(mesh, after):
@@ -89,6 +89,11 @@ class WholeMesh(ranks_tool.RanksTest):
                 cell = mesh.cells[square(mesh, after)]
                 cell[2] = cell[0]
 
+        def collapse(mesh):
+            for after in (len(mesh.cells) // 3, len(mesh.cells) // 2):
+                cell = mesh.cells[square(mesh, after)]
+                cell[2] = cell[1]
+
         def open_thin_row(mesh):
             row = range(20 * (side + 1), 21 * (side + 1))
             copies = {v: len(mesh.points) + i for i, v in enumerate(row)}
@@ -100,6 +105,7 @@ class WholeMesh(ranks_tool.RanksTest):
 
         for make, said, is_whole in ((cross, "2 quadrilaterals do not list their corners in turn", True),
                                      (repeat, "2 quadrilaterals repeating a node (the first is cell", False),
+                                     (collapse, "2 quadrilaterals repeat a corner: they are smoothed as the tri", False),
                                      (open_thin_row, "48 quadrilaterals have no thickness", True)):
             mesh = pieces.grid_of_both_kinds(side)
             make(mesh)
