@@ -61,9 +61,9 @@ void require_points(const T* xy, std::int32_t vertex_count) {
 
 class Plan::Implementation {
  public:
-  Implementation(const DeviceMesh& mesh, const SmoothingOptions& options, cudaStream_t stream)
+  Implementation(const DeviceMesh& mesh, SmoothingOptions options, cudaStream_t stream)
       : vertex_count_(mesh.vertex_count),
-        options_(options),
+        options_(std::move(options)),
         context_(stream),
         topology_(find_topology(mesh)),
         slide_(mesh.constraints.slide),

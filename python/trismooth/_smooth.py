@@ -68,13 +68,13 @@ def smooth(
     fixed : array of N bools, or of vertex numbers, optional
         Vertices to hold.
     other_cells : array of N bools, or of vertex numbers, optional
-        Vertices of cells that are no triangles: held, and part of the mesh even where no triangle has them.
+        Vertices of cells that are no elements, as polygons: held, and part of the mesh even where no element has them.
     size : array of N floats, optional
         The edge length wanted around each vertex, in any unit, for the method "mean-ratio": only relations count.
     slide : {"off", "straight", "curves"}
         Whether vertices of boundaries and borders of regions move along them: "straight" on stretches that are straight
         to rounding, where the line stays the same set of points; "curves" on all, as far as ``deviation`` allows.
-        Triangles of six nodes do not slide. See docs/sliding.md.
+        Elements with nodes in the middle of their sides do not slide. See docs/sliding.md.
     lines : array of integers, shape (K, 2), optional
         Edges of further lines, two vertex numbers each: their vertices are held, or slide along them. Of a mesh with
         line cells these are its lines, where vertices slide; False: it has none; an array: these in place of them.
