@@ -41,8 +41,8 @@ if [[ $("$tidy" --version 2>/dev/null) != *"$version"* ]]; then
   "$build/tool/bin/pip" install --quiet "clang-tidy==$version"
 fi
 
-# What is compiled for the host alone: the compile commands are GCC's, and Clang need not know every warning that they
-# name. Sources that this machine does not build are left out, and said.
+# What is compiled for the host alone: the compile commands are GCC's, and Clang need not know every warning and limit that
+# they name. Sources that this machine does not build are left out, and said.
 sources=()
 kernels=()
 unbuilt=0
@@ -59,7 +59,8 @@ echo "clang-tidy: ${#sources[@]} C++ and ${#kernels[@]} CUDA sources; $unbuilt t
 status=0
 if ((${#sources[@]} > 0)); then
   printf '%s\0' "${sources[@]}" |
-    xargs -0 -n 1 -P "$(nproc)" "$tidy" --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option || status=1
+    xargs -0 -n 1 -P "$(nproc)" "$tidy" --quiet -p "$build" --extra-arg=-Wno-unknown-warning-option \
+      --extra-arg=-Wno-unused-command-line-argument || status=1
 fi
 # Kernels as Clang compiles them for the host; nvcc's options are not its own.
 cuda=$(dirname "$(dirname "$(realpath "$(command -v nvcc || echo /usr/local/cuda/bin/nvcc)")")")
