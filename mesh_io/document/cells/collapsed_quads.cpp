@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/replaced_cells.h"
+
 namespace trismooth {
 
 namespace {
@@ -61,23 +63,18 @@ std::size_t count_collapsed_quads(const MeshDocument& document) {
 }
 
 MeshDocument with_collapsed_quads_as_triangles(const MeshDocument& document) {
-  MeshDocument expanded = document;
-  expanded.original = nullptr;
-  expanded.cells = {};
-  for (std::size_t cell = 0; cell < document.cells.size(); ++cell) {
-    const auto vertices = document.cells[cell];
-    const auto triangle = triangle_of_quad(document.cells.types[cell], vertices);
+  return with_replaced_cells(document, [&document](std::size_t cell, CellList& cells) {
+    const auto triangle = triangle_of_quad(document.cells.types[cell], document.cells[cell]);
     if (!triangle) {
-      expanded.cells.append(document.cells.types[cell], vertices);
-      continue;
+      return false;
     }
     std::vector<std::int32_t> nodes(triangle->corners.begin(), triangle->corners.end());
     if (triangle->middles) {
       nodes.insert(nodes.end(), triangle->middles->begin(), triangle->middles->end());
     }
-    expanded.cells.append(triangle->middles ? cell_type::quadratic_triangle : cell_type::triangle, nodes);
-  }
-  return expanded;
+    cells.append(triangle->middles ? cell_type::quadratic_triangle : cell_type::triangle, nodes);
+    return true;
+  });
 }
 
 }  // namespace trismooth
