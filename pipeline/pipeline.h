@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -47,6 +48,7 @@ struct EnumText<Stage> {
 
 struct PipelineResult;
 struct HalfedgeStage;
+struct MeshPicture;
 
 /// What belongs to the mesh that a run writes and is to be there with it or not at all, as reports. Both are called
 /// where the run writes a mesh alone, by rank 0 alone; `prepare` by smooth_document() too. Empty: there is nothing.
@@ -115,6 +117,7 @@ struct PipelineOptions {
   std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
   bool annotated_size_ratio = false;                     ///< they show that one, too
   bool size_ratio = false;                               ///< reports have it, which takes a while
+  bool picture = false;  ///< the result keeps what pictures of the mesh show, for html_report(): 100 bytes a vertex
   /// A stage of the program's own between reading and smoothing, which has the mesh as OpenMesh halfedges
   /// (halfedge_stage.h): it may hold vertices and give the output arrays. Called once by the topology stage, of every
   /// run of the functions below; what it throws, the run does. The host connects the mesh by halfedges then, whatever
@@ -210,7 +213,8 @@ struct PipelineResult {
   std::vector<std::string> losses;    ///< what the output does not hold of the input, one sentence each: always shown
   std::vector<std::string> warnings;  ///< what the user should have known before the smoothing, one sentence each
   PipelineTimings timings_ms;
-  std::int64_t peak_memory_bytes = 0;  ///< of this process so far
+  std::shared_ptr<const MeshPicture> picture;  ///< null unless it was asked for; of a mesh in pieces there is none
+  std::int64_t peak_memory_bytes = 0;          ///< of this process so far
 };
 
 /// Throws where extensions name no format, before any work: WriteError for that of the output, ReadError where the

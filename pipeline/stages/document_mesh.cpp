@@ -11,6 +11,7 @@
 #include "trismooth/base/machine/peak_memory.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/stages/picture_stage.h"
 #include "trismooth/pipeline/stages/smooth_stage.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
 #include "trismooth/pipeline/stages/write_stage.h"
@@ -103,6 +104,10 @@ SmoothingResult DocumentMesh::smooth() {
   SmoothingResult smoothing = deformer_ ? deformer_->follow() : smooth_mesh(run_);
   stop_if_cancelled(smoothing);
   return smoothing;
+}
+
+void DocumentMesh::keep_picture() {
+  run_.result.picture = picture_of(run_);
 }
 
 void DocumentMesh::write(const std::function<const PipelineResult&()>& completed) {

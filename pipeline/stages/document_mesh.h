@@ -33,6 +33,7 @@ class DocumentMesh final : public StagedMesh {
   CoarseBoundary coarse_boundary() override;
   /// Or has the mesh follow its boundary in the next step, when deform() has been called.
   SmoothingResult smooth() override;
+  void keep_picture() override;
   void write(const std::function<const PipelineResult&()>& completed) override;
 
  private:

@@ -50,6 +50,8 @@ class StagedMesh {
   virtual CoarseBoundary coarse_boundary() = 0;
   /// Smooths it, and has all that belongs to it follow. Throws Cancelled.
   virtual SmoothingResult smooth() = 0;
+  /// Keeps in the result what pictures show of the mesh as it is now, behind what was kept before its smoothing.
+  virtual void keep_picture() {}
   /// Writes it: when all is complete under other names `completed` gives the result, which is told on
   /// (PipelineOptions::beside), and then all takes its place. There is an output.
   virtual void write(const std::function<const PipelineResult&()>& completed) = 0;

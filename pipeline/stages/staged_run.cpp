@@ -73,6 +73,13 @@ void StagedRun::check_before() {
   result.before = std::move(quality.report);
   result.regions_before = std::move(quality.regions);
   result.quadratic_before = quality.quadratic;
+  keep_picture();
+}
+
+void StagedRun::keep_picture() {
+  if (run_.options.picture) {
+    mesh_.keep_picture();
+  }
 }
 
 void StagedRun::smooth() {
@@ -100,6 +107,7 @@ void StagedRun::check_after() {
   result.after = std::move(quality.report);
   result.regions_after = std::move(quality.regions);
   result.quadratic_after = quality.quadratic;
+  keep_picture();
   if (run_.options.deformation) {
     return;  // of all steps together it is said
   }

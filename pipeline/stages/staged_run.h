@@ -36,6 +36,7 @@ class StagedRun {
   template <class Body>
   void timed(Stage stage, double& milliseconds, const Body& body) const;
   void check_before();
+  void keep_picture();
   void check_after();
 
   const Stopwatch watch_;
