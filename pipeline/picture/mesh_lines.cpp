@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/pipeline/picture/mesh_lines.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <span>
+
+namespace trismooth {
+
+namespace {
+
+/// An edge as an element has it.
+struct Side {
+  std::int32_t low;  ///< its vertices
+  std::int32_t high;
+  std::int32_t region;
+};
+
+/// The edges between vertices that may be on a line, once for each of their elements.
+std::vector<Side> sides_that_may_be(const MeshPicture& picture) {
+  std::vector<Side> sides;
+  const std::span<const std::uint8_t> held = picture.held;
+  picture.elements.list().visit([&]<class Corners>(std::span<const Corners> elements) {
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+      const auto corners = static_cast<std::size_t>(corner_count(elements[e]));
+      for (std::size_t i = 0; i < corners; ++i) {
+        const std::int32_t from = elements[e][i];
+        const std::int32_t to = elements[e][i + 1 < corners ? i + 1 : 0];
+        if (from != to &&
+            (held.empty() || (held[static_cast<std::size_t>(from)] != 0 && held[static_cast<std::size_t>(to)] != 0))) {
+          sides.push_back({std::min(from, to), std::max(from, to), picture.regions.empty() ? 0 : picture.regions[e]});
+        }
+      }
+    }
+  });
+  return sides;
+}
+
+/// By their vertices. Those of one vertex are few.
+std::vector<Side> sorted(const std::vector<Side>& sides, std::size_t vertices) {
+  std::vector<std::int32_t> places(vertices + 1);
+  for (const Side& side : sides) {
+    ++places[static_cast<std::size_t>(side.low) + 1];
+  }
+  std::partial_sum(places.begin(), places.end(), places.begin());
+  std::vector<Side> by_low(sides.size());
+  for (const Side& side : sides) {
+    by_low[static_cast<std::size_t>(places[static_cast<std::size_t>(side.low)]++)] = side;
+  }
+  std::size_t first = 0;
+  while (first < by_low.size()) {
+    std::size_t end = first;
+    while (end < by_low.size() && by_low[end].low == by_low[first].low) {
+      ++end;
+    }
+    std::sort(by_low.begin() + static_cast<std::ptrdiff_t>(first), by_low.begin() + static_cast<std::ptrdiff_t>(end),
+              [](const Side& a, const Side& b) { return a.high < b.high; });
+    first = end;
+  }
+  return by_low;
+}
+
+}  // namespace
+
+MeshLines mesh_lines(const MeshPicture& picture) {
+  const std::vector<Side> sides = sorted(sides_that_may_be(picture), picture.before.size());
+  MeshLines lines;
+  std::size_t end = 0;
+  for (std::size_t first = 0; first < sides.size(); first = end) {
+    const Side& side = sides[first];
+    for (end = first + 1; end < sides.size() && sides[end].low == side.low && sides[end].high == side.high;) {
+      ++end;
+    }
+    if (end == first + 1) {
+      lines.boundary.push_back({side.low, side.high});
+    } else if (end > first + 2 || sides[first + 1].region != side.region) {
+      lines.interfaces.push_back({side.low, side.high});
+    }
+  }
+  return lines;
+}
+
+}  // namespace trismooth
