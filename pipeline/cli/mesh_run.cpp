@@ -371,6 +371,8 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   options.size_ratio =
       std::ranges::any_of(settings.gates, &needs_size_ratio) || (!environment.over_ranks && !settings.reports.empty());
 
+  options.picture = std::ranges::any_of(settings.reports, &shows_mesh);
+
   if (environment.follows) {
     environment.run(options);
     return ExitCode::done;

@@ -11,9 +11,11 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/coordinates_hash.h"
+#include "trismooth/pipeline/picture/mesh_view_html.h"
 #include "trismooth/pipeline/report/held_html.h"
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/html_page.h"
@@ -265,14 +267,23 @@ std::string histogram(const PipelineResult& result) {
   return html + shape_histogram_svg(result.before, after_of(result)) + "</figure>\n";
 }
 
+/// The number of an element, that leads to it in the view of the mesh.
+std::string element_link(std::int64_t element, std::string_view state) {
+  return state.empty() ? std::to_string(element)
+                       : fmt::format("<button type=\"button\" data-element=\"{0}\" data-state=\"{1}\">{0}</button>",
+                                     element, state);
+}
+
 /// Of a mesh of one region, or none, `names` is empty.
-std::string worst_table(std::string_view title, const QualityReport& report, const std::vector<std::string>& names) {
+/// `state`: "before" or "after", where the page shows the mesh, else empty.
+std::string worst_table(std::string_view title, const QualityReport& report, const std::vector<std::string>& names,
+                        std::string_view state) {
   std::string html = fmt::format(
       "<div>\n{}<table>\n<thead><tr><th>element</th><th>shape</th><th>centroid</th>{}</tr>"
       "</thead>\n<tbody>\n",
       title.empty() ? std::string{} : fmt::format("<h3>{}</h3>\n", title), names.empty() ? "" : "<th>region</th>");
   for (const WorstElement& element : report.worst) {
-    html += "<tr>" + html_cell(std::to_string(element.element)) +
+    html += "<tr>" + html_cell(element_link(element.element, state)) +
             html_cell(number_text(element.shape, decimals(Metric::shape)), element.shape < 0 ? "bad" : "") +
             html_cell(fmt::format("{:.7g}, {:.7g}{}", element.centroid.x, element.centroid.y,
                                   element.all_fixed ? "<small>all corners fixed</small>" : ""),
@@ -286,9 +297,10 @@ std::string worst_table(std::string_view title, const QualityReport& report, con
 std::string worst_tables(const PipelineResult& result) {
   const std::vector<std::string> names =
       result.region_names.size() < 2 ? std::vector<std::string>{} : result.region_names;
-  const std::string tables =
-      result.after ? worst_table("before", result.before, names) + worst_table("after", *result.after, names)
-                   : worst_table("", result.before, names);
+  const bool has_view = result.picture != nullptr;
+  const std::string tables = result.after ? worst_table("before", result.before, names, has_view ? "before" : "") +
+                                                worst_table("after", *result.after, names, has_view ? "after" : "")
+                                          : worst_table("", result.before, names, has_view ? "before" : "");
   return "<div class=\"two\">\n" + tables + "</div>\n";
 }
 
@@ -448,6 +460,10 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   if (result.before.elements() > 0) {
     html += cards(result);
   }
+  if (result.picture && result.before.elements() > 0) {
+    Workers workers(options.smoothing.threads);
+    html += html_section("The mesh", mesh_view_html(*result.picture, workers));
+  }
   if (!record.gates.empty()) {
     html += html_section("Gates", gates_table(record.gates));
   }
@@ -496,7 +512,8 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
 }  // namespace
 
 std::string html_report(const PipelineOptions& options, const PipelineResult& result, const RunRecord& record) {
-  return html_page(result.input.path.filename().string(), body(options, result, record));
+  return html_page(result.input.path.filename().string(), body(options, result, record),
+                   result.picture ? mesh_view_style() : std::string_view{});
 }
 
 }  // namespace trismooth

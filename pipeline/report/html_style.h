@@ -8,9 +8,13 @@ namespace trismooth {
 /// The style sheet of the HTML report.
 inline constexpr std::string_view html_style = R"css(
 :root { --ink: #1c2430; --soft: #5b6675; --line: #e3e7ec; --before: #aeb8c4; --after: #2463eb;
-        --good: #14804a; --bad: #b3261e; --mixed: #9a6700; }
+        --good: #14804a; --bad: #b3261e; --mixed: #9a6700; --paper: #fff; color-scheme: light dark; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --ink: #e4e8ee; --soft: #9aa5b4; --line: #303844; --before: #5c6776; --after: #6ea0ff;
+          --good: #58c48c; --bad: #ff8a80; --mixed: #e2b04a; --paper: #14181e; }
+}
 * { box-sizing: border-box; }
-body { margin: 0; background: #fff; color: var(--ink); font: 15px/1.5 system-ui, "Segoe UI", Roboto, "Helvetica Neue",
+body { margin: 0; background: var(--paper); color: var(--ink); font: 15px/1.5 system-ui, "Segoe UI", Roboto, "Helvetica Neue",
        "Liberation Sans", Arial, sans-serif; -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 main { max-width: 1080px; margin: 0 auto; padding: 40px 32px 48px; }
 header { border-bottom: 2px solid var(--ink); padding-bottom: 16px; }
@@ -59,7 +63,7 @@ svg.chart .grid { stroke: var(--line); stroke-width: 1; }
 svg.chart rect.before { fill: var(--before); }
 svg.chart rect.after { fill: var(--after); }
 svg.chart .curve { fill: none; stroke: var(--after); stroke-width: 2; stroke-linejoin: round; }
-svg.chart .dot { fill: #fff; stroke: var(--after); stroke-width: 2; }
+svg.chart .dot { fill: var(--paper); stroke: var(--after); stroke-width: 2; }
 .meter { width: 40%; }
 .meter span { display: block; height: 9px; margin-top: 7px; border-radius: 2px; background: var(--after);
               min-width: 1px; }

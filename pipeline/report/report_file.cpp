@@ -26,6 +26,10 @@ void require_report_extension(const std::filesystem::path& path) {
   writer_of(path);
 }
 
+bool shows_mesh(const std::filesystem::path& path) {
+  return writer_of(path) == &html_report;
+}
+
 WrittenAside write_report_aside(const std::filesystem::path& path, const PipelineOptions& options,
                                 const PipelineResult& result, const RunRecord& record) {
   return write_report_text_aside(path, writer_of(path)(options, result, record));

@@ -12,6 +12,9 @@ namespace trismooth {
 /// Checks that the path's extension names a report format, .json or .html (any case). Throws std::invalid_argument.
 void require_report_extension(const std::filesystem::path& path);
 
+/// Whether a report in the format that the path's extension names shows the mesh: PipelineOptions::picture is for it.
+bool shows_mesh(const std::filesystem::path& path);
+
 /// Writes the report of a run in the format that the path's extension names; it takes its place when it is committed.
 /// Throws WriteError, std::invalid_argument for another extension.
 WrittenAside write_report_aside(const std::filesystem::path& path, const PipelineOptions& options,

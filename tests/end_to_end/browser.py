@@ -35,7 +35,7 @@ class Browser:
         above = [fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, 10) for end in (commands_out, messages_in)]
         with open(os.path.join(folder, "browser.log"), "wb") as log:
             self.process = subprocess.Popen(
-                [find(), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+                [find(), "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--no-first-run",
                  "--disable-extensions", "--disable-background-networking", "--hide-scrollbars",
                  "--remote-debugging-pipe", f"--user-data-dir={os.path.join(folder, 'browser')}", "about:blank"],
                 cwd=folder, env={**os.environ, "TMPDIR": folder}, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
