@@ -62,5 +62,5 @@ if(TRISMOOTH_PIPELINE AND NOT TRISMOOTH_CUDA)
     set(halfedge trismooth-halfedge)
   endif()
   trismooth_pkg_config(pipeline "Mesh files read, checked, smoothed and written, as the program trismooth does it"
-                       REQUIRES trismooth-mesh_io trismooth-space ${halfedge} INSIDE_REQUIRES fmt libxxhash)
+                       REQUIRES trismooth-mesh_io trismooth-space ${halfedge} INSIDE_REQUIRES fmt libpng libxxhash)
 endif()

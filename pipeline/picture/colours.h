@@ -34,6 +34,10 @@ inline constexpr std::array<ColourStop, 5> quality_colours{{{0.0, {178, 24, 43}}
                                                             {1.0, {146, 197, 222}}}};
 /// Of inverted elements, which are below the worst.
 inline constexpr Colour inverted_colour{34, 0, 51};
+/// Of the edges of elements.
+inline constexpr Colour edge_colour{91, 103, 112};
+/// Of boundaries and interfaces, and of letters.
+inline constexpr Colour line_colour{17, 17, 17};
 /// From little to much, of what is neither good nor bad: sizes, distances. (After cividis.)
 inline constexpr std::array<ColourStop, 5> amount_colours{{{0.0, {0, 48, 111}},
                                                            {0.25, {75, 92, 124}},

@@ -1,27 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/pipeline/picture/mesh_view_html.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "trismooth/base/box.h"
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/pipeline/picture/base64.h"
 #include "trismooth/pipeline/picture/colours.h"
+#include "trismooth/pipeline/picture/element_shades.h"
+#include "trismooth/pipeline/picture/mesh_lines.h"
+#include "trismooth/pipeline/picture/near_worst.h"
 #include "trismooth/pipeline/picture/packed_picture.h"
+#include "trismooth/pipeline/picture/png_text.h"
+#include "trismooth/pipeline/picture/still_picture.h"
 #include "trismooth/pipeline/picture/viewer_text.h"
 #include "trismooth/pipeline/report/html_text.h"
 #include "trismooth/quality/metrics.h"
+#include "trismooth/quality/report_text.h"
 
 namespace trismooth {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// That a page shows one by one.
+constexpr std::int64_t most_elements = 2'000'000;
 
 /// What the bits of namespace hold mean to people, from the lowest.
 constexpr std::array<std::string_view, 8> held_reasons{"boundary",
@@ -81,8 +96,9 @@ std::vector<const MetricInfo*> metrics_shown(const PackedPicture& packed) {
   return shown;
 }
 
-/// What the script is to know. As the text of a script element, which ends at no name: `<`, `>` and `&` are escaped.
-std::string about_json(const MeshPicture& picture, const PackedPicture& packed) {
+/// What the script is to know. `backdrop`: where the picture behind a large mesh is, or null. As the text of a script
+/// element, which ends at no name: `<`, `>` and `&` are escaped.
+std::string about_json(const MeshPicture& picture, const PackedPicture& packed, Json backdrop) {
   Json streams = Json::array();
   for (const PackedStream& stream : packed.streams) {
     streams.push_back({stream.name, stream.count, stream.planes, stream.bytes});
@@ -106,6 +122,7 @@ std::string about_json(const MeshPicture& picture, const PackedPicture& packed) 
       {"scales",
        {{"triangle", scales_json(ElementKind::triangle)}, {"quadrilateral", scales_json(ElementKind::quadrilateral)}}},
       {"colours", colours_json()},
+      {"backdrop", std::move(backdrop)},
       {"streams", std::move(streams)}};
   std::string escaped;
   for (const char c : about.dump(-1, ' ', true, Json::error_handler_t::replace)) {
@@ -130,6 +147,34 @@ std::string metric_options(const MeshPicture& picture, const PackedPicture& pack
     html += "<option value=\"moved\">distance moved</option>";
   }
   return html;
+}
+
+/// How large a picture of that part of the plane is, at most so many pixels along either side.
+std::pair<int, int> size_of(const Box& window, double most) {
+  const double x = window.high.x / 2 - window.low.x / 2;
+  const double y = window.high.y / 2 - window.low.y / 2;
+  const double scale = most / std::max(x, y);
+  return {std::max(static_cast<int>(std::lround(x * scale)), 1), std::max(static_cast<int>(std::lround(y * scale)), 1)};
+}
+
+/// The picture for windows that show no other, for paper, and for what lies behind the elements of a large mesh.
+std::string still(const ElementShades& shades, const MeshLines& lines, bool is_large, std::string_view classes,
+                  std::string_view text, Workers& workers) {
+  StillOptions options;
+  options.window = with_room(shades.box());
+  std::tie(options.width, options.height) = size_of(*options.window, is_large ? 2400 : 1200);
+  options.threads = workers.count();
+  return fmt::format("<img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>\n", classes, text,
+                     base64(png_text(draw_still(shades, &lines, options))));
+}
+
+/// The part of the plane that the picture behind a large mesh shows.
+Json window_in_steps(const Box& window, const PackedPicture& packed) {
+  const auto steps = [&](double place, double origin) { return (place - origin) / packed.step; };
+  return {{"lowX", steps(window.low.x, packed.origin.x)},
+          {"lowY", steps(window.low.y, packed.origin.y)},
+          {"highX", steps(window.high.x, packed.origin.x)},
+          {"highY", steps(window.high.y, packed.origin.y)}};
 }
 
 std::string check_box(std::string_view name, std::string_view label) {
@@ -159,20 +204,46 @@ std::string tools(const MeshPicture& picture, const PackedPicture& packed) {
 }  // namespace
 
 std::string mesh_view_html(const MeshPicture& picture, Workers& workers) {
-  std::vector<std::int32_t> shown(picture.elements.list().size());
-  std::iota(shown.begin(), shown.end(), 0);
-  const PackedPicture packed = pack_picture(picture, shown, workers);
+  const ElementList elements = picture.elements.list();
+  const bool is_large = std::ssize(elements) > most_elements;
+  std::vector<std::int32_t> shown;
+  if (is_large) {
+    shown = elements_near_worst(picture, workers);
+  } else {
+    shown.resize(elements.size());
+    std::iota(shown.begin(), shown.end(), 0);
+  }
+  const MeshLines lines = mesh_lines(picture);
+  const PackedPicture packed = pack_picture(picture, shown, lines, workers);
   std::string html = "<div id=\"mesh-view\">\n" + tools(picture, packed);
   html +=
       "<div class=\"view-stage\" tabindex=\"0\" role=\"application\" aria-label=\"The mesh. Arrows move it, + and - "
       "zoom, "
-      "0 shows all of it, space changes between before and after, n and p lead to the worst elements.\">\n"
+      "0 shows all of it, space changes between before and after, n and p lead to the worst elements.\">\n";
+  const ElementShades shades(picture, {}, false);
+  html += still(shades, lines, is_large, "view-still",
+                picture.after.empty() ? "The mesh, coloured by shape" : "The mesh after smoothing, coloured by shape",
+                workers);
+  if (is_large && !picture.after.empty()) {
+    const ElementShades before(picture, {}, true);
+    html +=
+        still(before, lines, is_large, "view-still-before", "The mesh before smoothing, coloured by shape", workers);
+  }
+  html +=
       "<canvas class=\"view-canvas\"></canvas>\n<div class=\"view-marks\"></div>\n</div>\n"
-      "<div class=\"view-legend\"></div>\n<div class=\"view-note\"></div>\n"
-      "<div class=\"view-info\" aria-live=\"polite\"><p class=\"soft\">Click an element to see its number, region and "
-      "metrics. Drag to move, turn the wheel or pinch to zoom.</p></div>\n</div>\n";
-  html += "<script type=\"application/json\" id=\"mesh-about\">" + about_json(picture, packed) + "</script>\n";
-  html += "<script type=\"text/plain\" id=\"mesh-data\">" + packed.data + "</script>\n";
+      "<div class=\"view-legend\"></div>\n<div class=\"view-note\">";
+  if (is_large) {
+    html += fmt::format(
+        "The mesh has {} elements, which are more than a page can show one by one ({}): this is a picture of all of "
+        "them, in which the worst are in front, and the {} around the worst ones, which can be clicked.",
+        count_text(std::ssize(elements)), count_text(most_elements), count_text(std::ssize(shown)));
+  }
+  html +=
+      "</div>\n<div class=\"view-info\" aria-live=\"polite\"><p class=\"soft\">Click an element to see its number, "
+      "region and metrics. Drag to move, turn the wheel or pinch to zoom.</p></div>\n</div>\n";
+  html += "<script type=\"application/json\" id=\"mesh-about\">" +
+          about_json(picture, packed, is_large ? window_in_steps(with_room(shades.box()), packed) : Json()) +
+          "</script>\n<script type=\"text/plain\" id=\"mesh-data\">" + packed.data + "</script>\n";
   html += fmt::format("<script>//<![CDATA[\n{}{}//]]></script>\n", viewer_metrics, viewer_script);
   return html;
 }

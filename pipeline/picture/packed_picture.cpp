@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
-#include <string_view>
 #include <utility>
 
 #include <zlib.h>
@@ -17,7 +16,7 @@
 #include "trismooth/base/hilbert_curve.h"
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/machine/workers.h"
-#include "trismooth/pipeline/picture/mesh_lines.h"
+#include "trismooth/pipeline/picture/base64.h"
 #include "trismooth/quality/element.h"
 
 namespace trismooth {
@@ -26,7 +25,7 @@ namespace {
 
 using Numbers = BulkVector<std::uint32_t>;
 
-constexpr std::int64_t grain = 16384;
+constexpr std::int64_t packing_grain = 16384;
 constexpr int curve_order = 15;
 constexpr int fewest_bits = 12;
 constexpr int most_bits = 28;
@@ -34,6 +33,11 @@ constexpr int most_bits = 28;
 /// Negative numbers among the others, small ones first.
 std::uint32_t zigzag(std::int64_t number) {
   return static_cast<std::uint32_t>(number < 0 ? -2 * number - 1 : 2 * number);
+}
+
+/// The nearest whole number; of numbers that are not negative. (The library's is a call.)
+double whole(double steps) {
+  return static_cast<double>(static_cast<std::int64_t>(steps + 0.5));
 }
 
 /// The plane in steps from an origin.
@@ -54,8 +58,8 @@ struct Grid {
 
 class Packer {
  public:
-  Packer(const MeshPicture& picture, std::span<const std::int32_t> shown, Workers& workers)
-      : picture_(picture), elements_(picture.elements.list()), shown_(shown), workers_(workers) {}
+  Packer(const MeshPicture& picture, std::span<const std::int32_t> shown, const MeshLines& lines, Workers& workers)
+      : picture_(picture), lines_(lines), elements_(picture.elements.list()), shown_(shown), workers_(workers) {}
 
   PackedPicture pack() {
     order_vertices();
@@ -125,7 +129,7 @@ class Packer {
     const double half = std::max(box.high.x / 2 - box.low.x / 2, box.high.y / 2 - box.low.y / 2);
     extent_exponent_ = half > 0 ? std::ilogb(half) + 2 : 0;  // 2^extent_exponent is above the extent
     const auto coarse = Grid{box.low, extent_exponent_ - curve_order}.steps();
-    workers_.for_blocks(std::ssize(keyed), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(std::ssize(keyed), packing_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
         const auto [x, y] = coarse(picture_.now()[keyed[i].number]);
         keyed[i].key = static_cast<std::uint32_t>(
@@ -147,7 +151,7 @@ class Packer {
       ++bits;
     }
     BulkVector<KeyedNumber> keyed(shown_.size());
-    workers_.for_blocks(std::ssize(keyed), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(std::ssize(keyed), packing_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
         const std::span<const std::int32_t> listed = elements_[static_cast<std::size_t>(shown_[i])];
         std::int32_t first = new_of_[listed[0]];
@@ -203,7 +207,7 @@ class Packer {
   template <class Number>
   void add(std::string name, std::size_t count, const Number& number) {
     Numbers numbers(count);
-    workers_.for_blocks(static_cast<std::int64_t>(count), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(static_cast<std::int64_t>(count), packing_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
         numbers[i] = number(static_cast<std::size_t>(i));
       }
@@ -218,10 +222,10 @@ class Packer {
     const auto keep = [&](Places& places, const BulkVector<Point2<double>>& points) {
       places.exact.resize(count);
       places.whole.resize(count);
-      workers_.for_blocks(static_cast<std::int64_t>(count), grain, [&](std::int64_t begin, std::int64_t end) {
+      workers_.for_blocks(static_cast<std::int64_t>(count), packing_grain, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
           places.exact[i] = steps(points[vertices_[i]]);
-          places.whole[i] = {std::nearbyint(places.exact[i].x), std::nearbyint(places.exact[i].y)};
+          places.whole[i] = {whole(places.exact[i].x), whole(places.exact[i].y)};
         }
       });
     };
@@ -257,7 +261,7 @@ class Packer {
     const std::size_t count = order_.size();
     const std::size_t triangles = count - static_cast<std::size_t>(quadrilaterals_);
     packed_.resize(count);
-    workers_.for_blocks(static_cast<std::int64_t>(count), grain, [&](std::int64_t begin, std::int64_t end) {
+    workers_.for_blocks(static_cast<std::int64_t>(count), packing_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
         packed_[i] = packed_corners(static_cast<std::size_t>(i));
       }
@@ -286,7 +290,6 @@ class Packer {
     if (!picture_.held.empty()) {
       add("held", vertices_.size(), [&](std::size_t i) { return picture_.held[vertices_[i]]; });
     }
-    const MeshLines lines = mesh_lines(picture_);
     const auto add_lines = [this](const char* name, const auto& edges) {
       Numbers ends;
       for (const auto& edge : edges) {
@@ -297,8 +300,8 @@ class Packer {
       }
       add(name, std::move(ends));
     };
-    add_lines("boundary", lines.boundary);
-    add_lines("interface", lines.interfaces);
+    add_lines("boundary", lines_.boundary);
+    add_lines("interface", lines_.interfaces);
     if (has_moved() && !picture_.reversed_before.empty()) {
       Numbers turned;
       for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -324,7 +327,7 @@ class Packer {
       return !(std::abs(is - shown) <= seen) || (is > 0) != (shown > 0) || (is < 0) != (shown < 0);
     };
     std::vector<std::uint32_t> places = joined_lists<std::uint32_t>(
-        std::ssize(order_), grain, workers_, [&](std::int64_t i, std::vector<std::uint32_t>& found) {
+        std::ssize(order_), packing_grain, workers_, [&](std::int64_t i, std::vector<std::uint32_t>& found) {
           const std::span<const std::int32_t> listed = corners_of(packed_[i]);
           if (differs(listed, before_) || (has_moved() && differs(listed, now_))) {
             found.push_back(static_cast<std::uint32_t>(i));
@@ -393,24 +396,6 @@ class Packer {
     stream.numbers = {};
   }
 
-  static std::string base64(std::string_view bytes) {
-    static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text((bytes.size() + 2) / 3 * 4, '=');
-    char* to = text.data();
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-      const auto byte = [&](std::size_t k) {
-        return i + k < bytes.size() ? static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i + k])) : 0U;
-      };
-      const std::uint32_t three = byte(0) << 16U | byte(1) << 8U | byte(2);
-      const std::size_t made = std::min<std::size_t>(bytes.size() - i, 3) + 1;
-      for (std::size_t k = 0; k < made; ++k) {
-        to[k] = digits[three >> (18U - 6U * static_cast<unsigned>(k)) & 63U];
-      }
-      to += 4;
-    }
-    return text;
-  }
-
   PackedPicture finished() {
     workers_.for_blocks(std::ssize(pending_), 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
@@ -434,6 +419,7 @@ class Packer {
   }
 
   const MeshPicture& picture_;
+  const MeshLines& lines_;
   const ElementList elements_;
   const std::span<const std::int32_t> shown_;
   Workers& workers_;
@@ -451,8 +437,9 @@ class Packer {
 
 }  // namespace
 
-PackedPicture pack_picture(const MeshPicture& picture, std::span<const std::int32_t> shown, Workers& workers) {
-  return Packer(picture, shown, workers).pack();
+PackedPicture pack_picture(const MeshPicture& picture, std::span<const std::int32_t> shown, const MeshLines& lines,
+                           Workers& workers) {
+  return Packer(picture, shown, lines, workers).pack();
 }
 
 }  // namespace trismooth

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trismooth/base/point2.h"
+#include "trismooth/pipeline/picture/mesh_lines.h"
 #include "trismooth/pipeline/picture/mesh_picture.h"
 
 namespace trismooth {
@@ -36,7 +37,9 @@ struct PackedPicture {
   std::string data;  ///< of all streams, base64
 };
 
-/// Packs the elements `shown` (their places, ascending), at most 2^30. Complexity: linear.
-PackedPicture pack_picture(const MeshPicture& picture, std::span<const std::int32_t> shown, Workers& workers);
+/// Packs the elements `shown` (their places, ascending), at most 2^30, and those of the picture's lines that are among
+/// their sides. Complexity: linear.
+PackedPicture pack_picture(const MeshPicture& picture, std::span<const std::int32_t> shown, const MeshLines& lines,
+                           Workers& workers);
 
 }  // namespace trismooth

@@ -517,7 +517,7 @@
   // How far the mesh goes, in steps.
   function extent() {
     let [lowX, lowY, highX, highY] = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const box of [...painter.boxes, ...(about.backdrop ? [about.backdrop.box] : [])]) {
+    for (const box of [...painter.boxes, ...(about.backdrop ? [about.backdrop] : [])]) {
       [lowX, lowY] = [Math.min(lowX, box.lowX), Math.min(lowY, box.lowY)];
       [highX, highY] = [Math.max(highX, box.highX), Math.max(highY, box.highY)];
     }
@@ -636,6 +636,18 @@
     }
   }
 
+  // All of a large mesh is a picture, over which those around the worst elements are painted.
+  function makeBackdrop() {
+    for (const [from, state] of [['view-still-before', 'before'], ['view-still', 'after']]) {
+      if (about.backdrop && find(from)) {
+        const image = find(from).cloneNode();
+        image.className = 'view-backdrop ' + state;
+        stage.prepend(image);
+      }
+    }
+    stage.prepend(...stage.querySelectorAll('.view-backdrop.before'));
+  }
+
   function placeMarks() {
     const state = about.moved && view.now >= 0.5 ? 'after' : 'before';
     for (const {mark, state: of, e} of marks) {
@@ -644,12 +656,12 @@
       mark.style.transform = `translate(${x}px, ${y}px)`;
     }
     for (const image of stage.querySelectorAll('.view-backdrop')) {
-      const {box} = about.backdrop;
+      const box = about.backdrop;
       const [x, y] = toWindow(box.lowX, box.highY);
       const [right, bottom] = toWindow(box.highX, box.lowY);
       image.style.transform = `translate(${x}px, ${y}px)`;
       [image.style.width, image.style.height] = [`${right - x}px`, `${bottom - y}px`];
-      image.style.opacity = image.classList.contains('after') ? view.now : 1;
+      image.style.opacity = image.classList.contains('after') && about.moved ? view.now : 1;
     }
   }
 
@@ -721,7 +733,7 @@
     const info = find('view-info');
     info.replaceChildren();
     if (e < 0) {
-      info.append(textOf('p', 'No element there.'));
+      info.append(textOf('p', about.backdrop ? 'No element there that can be clicked.' : 'No element there.'));
       return;
     }
     const now = about.moved ? 1 : 0;
@@ -957,11 +969,11 @@
   function leaveStill(reason) {
     root.classList.remove('live');
     root.dataset.state = 'still';
-    find('view-note').textContent = reason;
+    find('view-note').prepend(textOf('p', reason));
   }
 
   async function begin() {
-    const gl = canvas.getContext('webgl2', {antialias: true, preserveDrawingBuffer: true});
+    const gl = canvas.getContext('webgl2', {antialias: about.triangles + about.quadrilaterals < 300000, preserveDrawingBuffer: true});
     if (!gl || typeof DecompressionStream === 'undefined') {
       leaveStill(`This browser has no ${gl ? 'DecompressionStream' : 'WebGL 2'}: here is a still picture of the mesh.`);
       return;
@@ -976,6 +988,7 @@
     show.isDark = isDark.matches;
     resize();
     makeMarks();
+    makeBackdrop();
     connectPointer();
     connectTools();
     colourBy(find('view-metric').value);

@@ -13,7 +13,7 @@ endfunction()
 # What an earlier run left must not help.
 file(REMOVE_RECURSE "${FOLDER}")
 set(missing)
-foreach(package IN ITEMS CLI11 CUDAToolkit EXPAT Eigen3 OpenMesh PkgConfig VTK ZLIB fmt nlohmann_json)
+foreach(package IN ITEMS CLI11 CUDAToolkit EXPAT Eigen3 OpenMesh PNG PkgConfig VTK ZLIB fmt nlohmann_json)
   list(APPEND missing "-DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON")
 endforeach()
 

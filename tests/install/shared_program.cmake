@@ -37,6 +37,6 @@ function(build_and_use options missing)
   endforeach()
 endfunction()
 
-build_and_use("-DTRISMOOTH_HALFEDGE=ON;-DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=OFF" "EXPAT\\;PkgConfig\\;TBB\\;VTK\\;ZLIB\\;fmt" mesh_io pipeline)
+build_and_use("-DTRISMOOTH_HALFEDGE=ON;-DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=OFF" "EXPAT\\;PNG\\;PkgConfig\\;TBB\\;VTK\\;ZLIB\\;fmt" mesh_io pipeline)
 build_and_use("-DTRISMOOTH_HALFEDGE=OFF;-DCMAKE_DISABLE_FIND_PACKAGE_OpenMesh=ON"
-              "EXPAT\\;PkgConfig\\;TBB\\;VTK\\;ZLIB\\;fmt\\;Eigen3\\;OpenMesh" pipeline)
+              "EXPAT\\;PNG\\;PkgConfig\\;TBB\\;VTK\\;ZLIB\\;fmt\\;Eigen3\\;OpenMesh" pipeline)

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/pipeline/picture/element_shades.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "trismooth/base/text/suggestion.h"
+#include "trismooth/quality/element.h"
+
+namespace trismooth {
+
+namespace {
+
+constexpr std::string_view region_name = "region";
+constexpr std::string_view moved_name = "moved";
+constexpr int steps = ElementShades::last - ElementShades::first;
+
+template <class Points>
+constexpr ElementKind kind_of = std::tuple_size_v<Points> == 3 ? ElementKind::triangle : ElementKind::quadrilateral;
+
+double evaluate(Metric metric, const CornerPoints& points) {
+  return evaluate(metric, points[0], points[1], points[2]);
+}
+double evaluate(Metric metric, const QuadrilateralPoints& points) {
+  return evaluate(metric, points[0], points[1], points[2], points[3]);
+}
+
+bool has_metric(Metric metric, ElementKind kind) {
+  return std::ranges::any_of(all_metrics(kind), [metric](const MetricInfo& info) { return info.metric == metric; });
+}
+
+/// Which shade has the place of a scale from the worst to the best. (Also of what is no number.)
+std::uint8_t shade_at(double place) {
+  const double from_best = place > 0 ? 1 - std::min(place, 1.0) : 1.0;
+  return static_cast<std::uint8_t>(ElementShades::first + static_cast<int>(std::floor(from_best * steps + 0.5)));
+}
+
+}  // namespace
+
+std::string_view PictureValue::name() const {
+  switch (kind) {
+    case ShownKind::region:
+      return region_name;
+    case ShownKind::moved:
+      return moved_name;
+    case ShownKind::metric:
+      break;
+  }
+  const auto& all = metrics_of_any_kind();
+  return (*std::ranges::find_if(all, [this](const MetricInfo* info) { return info->metric == metric; }))->name;
+}
+
+PictureValue picture_value_named(std::string_view name) {
+  if (name == region_name) {
+    return {ShownKind::region};
+  }
+  if (name == moved_name) {
+    return {ShownKind::moved};
+  }
+  if (const MetricInfo* const found = find_metric(name)) {
+    return {ShownKind::metric, found->metric};
+  }
+  std::string known;
+  std::vector<std::string> names;
+  for (const MetricInfo* const info : metrics_of_any_kind()) {
+    names.emplace_back(info->name);
+    known.append(info->name).append(", ");
+  }
+  names.emplace_back(region_name);
+  names.emplace_back(moved_name);
+  throw std::invalid_argument("pictures cannot show '" + std::string(name) + "'" + did_you_mean(name, names) +
+                              "; they show " + known + "region or moved");
+}
+
+ElementShades::ElementShades(const MeshPicture& picture, PictureValue value, bool before)
+    : picture_(picture),
+      elements_(picture.elements.list()),
+      value_(value),
+      points_(before ? picture.before : picture.now()),
+      reversed_(before ? picture.reversed_before : picture.reversed_now()) {
+  for (const auto corners : elements_) {
+    has_[corners.size() == 3 ? 0 : 1] = true;
+    for (const std::int32_t v : corners) {
+      box_.add(points_[static_cast<std::size_t>(v)]);
+    }
+  }
+  frame_ = local_frame(box_.low, box_.high);
+  unit_ = frame_.length_scale();
+  colours_.fill({255, 255, 255});
+  colours_[lacking] = lacking_colour;
+  colours_[inverted] = inverted_colour;
+  for (int i = 0; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / steps;
+    colours_[static_cast<std::size_t>(first + i)] =
+        value.is_quality()                ? colour_at(quality_colours, 1 - part)
+        : value.kind == ShownKind::region ? region_colours[static_cast<std::size_t>(i) % region_colours.size()]
+        : value.kind == ShownKind::moved  ? colour_at(amount_colours, part)
+                                          : colour_at(amount_colours, 1 - part);
+  }
+  if (value.kind == ShownKind::moved) {
+    measure_moves();
+  } else if (value.kind == ShownKind::metric && value.metric == Metric::area) {
+    measure_area();
+  } else if (value.kind == ShownKind::metric) {
+    bool is_there = elements_.empty();
+    for (const ElementKind kind : {ElementKind::triangle, ElementKind::quadrilateral}) {
+      if (has_metric(value.metric, kind)) {
+        scales_[static_cast<std::size_t>(kind)] = quality_scale(value.metric, kind);
+        is_there = is_there || has(kind);
+      }
+    }
+    if (!is_there) {
+      const bool are_triangles = has(ElementKind::triangle);
+      throw std::invalid_argument("no element of the mesh has " + std::string(value.name()) + ": all are " +
+                                  (are_triangles ? "triangles" : "quadrilaterals") + ", which have " +
+                                  metric_names(are_triangles ? ElementKind::triangle : ElementKind::quadrilateral));
+    }
+  }
+}
+
+void ElementShades::measure_area() {
+  range_ = {std::numeric_limits<double>::infinity(), 0, true};
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (const double area = value(e); area > 0) {
+      range_.low = std::min(range_.low, area);
+      range_.high = std::max(range_.high, area);
+    }
+  }
+  range_.low = std::min(range_.low, range_.high);
+}
+
+void ElementShades::measure_moves() {
+  if (picture_.after.empty()) {
+    throw std::invalid_argument(
+        "nothing has moved, so no picture can show how far; smooth and deform make pictures of moved");
+  }
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    range_.high = std::max(range_.high, value(e));
+  }
+}
+
+double ElementShades::amount_place(double value) const {
+  if (!(range_.high > range_.low)) {
+    return 0;
+  }
+  return range_.is_logarithmic ? std::log(value / range_.low) / std::log(range_.high / range_.low)
+                               : (value - range_.low) / (range_.high - range_.low);
+}
+
+template <class Element>
+double ElementShades::value_of(std::size_t number, const Element& corners) const {
+  if (value_.kind == ShownKind::region) {
+    return picture_.regions.empty() ? 0 : picture_.regions[number];
+  }
+  if (value_.kind == ShownKind::moved) {
+    double longest = 0;
+    for (const std::int32_t v : corners) {
+      const auto place = static_cast<std::size_t>(v);
+      const Point2<double> move = frame_.enter(picture_.after[place]) - frame_.enter(picture_.before[place]);
+      longest = std::max(longest, squared_length(move));
+    }
+    return std::sqrt(longest) * unit_;
+  }
+  const bool is_reversed = !reversed_.empty() && reversed_[number] != 0;
+  const auto points =
+      points_of(canonical_corners(corners, is_reversed), [this](std::int32_t v) { return frame_.enter(point(v)); });
+  const double value = evaluate(value_.metric, points);
+  return value_.metric == Metric::area ? value * unit_ * unit_ : value;
+}
+
+template <class Element>
+std::uint8_t ElementShades::shade_of(std::size_t number, const Element& corners) const {
+  if (value_.kind == ShownKind::region) {
+    const auto region = picture_.regions.empty() ? std::size_t{0} : static_cast<std::size_t>(picture_.regions[number]);
+    return static_cast<std::uint8_t>(first + region % region_colours.size());
+  }
+  if (value_.kind == ShownKind::moved) {
+    return static_cast<std::uint8_t>(last + first - shade_at(amount_place(value_of(number, corners))));
+  }
+  const bool is_reversed = !reversed_.empty() && reversed_[number] != 0;
+  const auto points =
+      points_of(canonical_corners(corners, is_reversed), [this](std::int32_t v) { return frame_.enter(point(v)); });
+  if (shape_quotient(points) < 0) {
+    return inverted;
+  }
+  if (value_.metric == Metric::area) {
+    return shade_at(amount_place(evaluate(value_.metric, points) * unit_ * unit_));
+  }
+  const auto& scale = scales_[static_cast<std::size_t>(kind_of<decltype(points)>)];
+  return scale ? shade_at(scale->place_of(evaluate(value_.metric, points))) : lacking;
+}
+
+double ElementShades::value(std::size_t element) const {
+  return elements_.visit([&]<class Corners>(std::span<const Corners> elements) {
+    return with_kind(elements[element], [&](const auto& corners) { return value_of(element, corners); });
+  });
+}
+
+std::uint8_t ElementShades::shade(std::size_t element) const {
+  return elements_.visit([&]<class Corners>(std::span<const Corners> elements) {
+    return with_kind(elements[element], [&](const auto& corners) { return shade_of(element, corners); });
+  });
+}
+
+}  // namespace trismooth

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/pipeline/picture/still_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "trismooth/base/machine/workers.h"
+#include "trismooth/pipeline/picture/plane_view.h"
+
+namespace trismooth {
+
+namespace {
+
+using Pixels = std::vector<std::uint8_t>;
+
+constexpr double edge_width = 0.8;
+constexpr double line_width = 2;
+/// Edges of elements whose mean edge is so long begin to be seen, and are seen as they are.
+constexpr double faint_edge = 6;
+constexpr double full_edge = 12;
+constexpr double edge_strength = 0.75;
+
+/// Of several threads that write, the largest value is left, whoever comes first.
+void raise(std::uint8_t& byte, std::uint8_t value) {
+  const std::atomic_ref shared(byte);
+  for (std::uint8_t found = shared.load(std::memory_order_relaxed);
+       value > found && !shared.compare_exchange_weak(found, value, std::memory_order_relaxed);) {
+  }
+}
+
+/// The part from `first` to `second` of a line, from 0 to 1, that is between `low` and `high` along one axis.
+void narrow(double from, double to, double low, double high, double& first, double& second) {
+  if (from == to) {
+    second = from < low || from > high ? -1 : second;
+    return;
+  }
+  const double a = (low - from) / (to - from);
+  const double b = (high - from) / (to - from);
+  first = std::max(first, std::min(a, b));
+  second = std::min(second, std::max(a, b));
+}
+
+/// Bytes for the pixels of a picture.
+class Canvas {
+ public:
+  Canvas(int width, int height)
+      : width_(width), height_(height), bytes_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+
+  const Pixels& bytes() const { return bytes_; }
+
+  /// The pixels whose middle is inside.
+  void fill(std::span<const Point2<double>> corners, std::uint8_t value) {
+    const auto [top, bottom] = std::ranges::minmax(corners, {}, &Point2<double>::y);
+    const int end = pixel_from(bottom.y, height_);
+    for (int row = pixel_from(top.y, height_); row < end; ++row) {
+      std::array<double, 4> crossings{};
+      const std::size_t count = crossings_of(corners, row + 0.5, crossings);
+      for (std::size_t i = 0; i + 1 < count; i += 2) {
+        const int right = pixel_from(crossings[i + 1], width_);
+        for (int column = pixel_from(crossings[i], width_); column < right; ++column) {
+          raise(at(column, row), value);
+        }
+      }
+    }
+  }
+
+  /// Every pixel that it comes through, but for some of those that it cuts a corner of.
+  void mark_thin(Point2<double> from, Point2<double> to, std::uint8_t value) {
+    if (!clip(from, to, 0)) {
+      return;
+    }
+    const double steps = std::max(std::ceil(std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))), 1.0);
+    for (double i = 0; i <= steps; ++i) {
+      const double part = i / steps;
+      raise(at(within(from.x + part * (to.x - from.x), width_), within(from.y + part * (to.y - from.y), height_)),
+            value);
+    }
+  }
+
+  /// A line whose rims are smooth: `strength` in its middle, from 0 to 1.
+  void stroke(Point2<double> from, Point2<double> to, double width, double strength) {
+    if (!clip(from, to, width)) {
+      return;
+    }
+    const bool is_steep = std::abs(to.y - from.y) > std::abs(to.x - from.x);
+    if (is_steep) {
+      std::swap(from.x, from.y);
+      std::swap(to.x, to.y);
+    }
+    if (from.x > to.x) {
+      std::swap(from, to);
+    }
+    const Point2<double> along = to - from;
+    const double length = std::hypot(along.x, along.y);
+    const double slope = along.x > 0 ? along.y / along.x : 0;
+    const double across = length > 0 ? along.x / length : 1;  // of a distance along the other axis
+    const double reach = (width / 2 + 0.5) / across;
+    const int columns = is_steep ? height_ : width_;
+    const int rows = is_steep ? width_ : height_;
+    const int end = pixel_from(to.x + 1, columns);
+    for (int i = pixel_from(from.x - 0.5, columns); i < end; ++i) {
+      const double y = from.y + (i + 0.5 - from.x) * slope;
+      const int last = pixel_from(y + reach, rows);
+      for (int j = pixel_from(y - reach, rows); j < last; ++j) {
+        const double cover = std::min(width / 2 + 0.5 - std::abs(j + 0.5 - y) * across, 1.0);
+        if (cover > 0) {
+          raise(is_steep ? at(j, i) : at(i, j), static_cast<std::uint8_t>(std::lround(255 * strength * cover)));
+        }
+      }
+    }
+  }
+
+ private:
+  std::uint8_t& at(int column, int row) {
+    return bytes_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(column)];
+  }
+  /// The first pixel whose middle is not before that place.
+  static int pixel_from(double place, int count) {
+    return static_cast<int>(std::clamp(std::ceil(place - 0.5), 0.0, static_cast<double>(count)));
+  }
+  static int within(double place, int count) {
+    return static_cast<int>(std::clamp(std::floor(place), 0.0, static_cast<double>(count - 1)));
+  }
+
+  static std::size_t crossings_of(std::span<const Point2<double>> corners, double y, std::array<double, 4>& crossings) {
+    std::size_t count = 0;
+    Point2<double> from = corners.back();
+    for (const Point2<double> to : corners) {
+      if ((from.y <= y) != (to.y <= y)) {
+        crossings[count++] = from.x + (y - from.y) * ((to.x - from.x) / (to.y - from.y));
+      }
+      from = to;
+    }
+    for (std::size_t i = 1; i < count; ++i) {
+      for (std::size_t j = i; j > 0 && crossings[j] < crossings[j - 1]; --j) {
+        std::swap(crossings[j], crossings[j - 1]);
+      }
+    }
+    return count;
+  }
+
+  /// Leaves the part that is on the canvas, or no further from it than `room`. False where there is none.
+  bool clip(Point2<double>& from, Point2<double>& to, double room) const {
+    double first = 0;
+    double second = 1;
+    narrow(from.x, to.x, -room, width_ + room, first, second);
+    narrow(from.y, to.y, -room, height_ + room, first, second);
+    if (!(first <= second)) {
+      return false;
+    }
+    const Point2<double> along = to - from;
+    to = {from.x + second * along.x, from.y + second * along.y};
+    from = {from.x + first * along.x, from.y + first * along.y};
+    return true;
+  }
+
+  int width_;
+  int height_;
+  Pixels bytes_;
+};
+
+/// Draws one element after the other.
+class ElementPainter {
+ public:
+  ElementPainter(const ElementShades& shades, const PlaneView& view, const StillOptions& options, Canvas& fills,
+                 Canvas& edges)
+      : shades_(shades),
+        view_(view),
+        screen_{{0, 0}, {static_cast<double>(options.width), static_cast<double>(options.height)}},
+        lines_(options.lines),
+        fills_(fills),
+        edges_(edges) {}
+
+  template <class Corners>
+  void paint(std::size_t element, const Corners& listed) {
+    std::array<Point2<double>, 4> points;
+    const auto count = static_cast<std::size_t>(corner_count(listed));
+    Box box;
+    for (std::size_t i = 0; i < count; ++i) {
+      points[i] = view_.pixel(shades_.point(listed[i]));
+      box.add(points[i]);
+    }
+    if (overlap(box, screen_)) {
+      paint(element, std::span<const Point2<double>>(points).first(count));
+    }
+  }
+
+ private:
+  void paint(std::size_t element, std::span<const Point2<double>> points) {
+    const std::uint8_t shade = shades_.shade(element);
+    fills_.fill(points, shade);
+    double area = 0;  // twice
+    double around = 0;
+    double longest = -1;
+    std::pair<std::size_t, std::size_t> ends;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::size_t next = i + 1 < points.size() ? i + 1 : 0;
+      area += cross(points[i] - points[0], points[next] - points[0]);
+      for (std::size_t j = i + 1; j < points.size(); ++j) {
+        if (const double length = squared_length(points[j] - points[i]); length > longest) {
+          longest = length;
+          ends = {i, j};
+        }
+      }
+      around += std::sqrt(squared_length(points[next] - points[i]));
+    }
+    if (std::abs(area) < std::sqrt(longest)) {  // narrower than a pixel
+      fills_.mark_thin(points[ends.first], points[ends.second], shade);
+    }
+    const double mean_edge = around / static_cast<double>(points.size());
+    if (lines_ && mean_edge > faint_edge) {
+      const double strength = std::min((mean_edge - faint_edge) / (full_edge - faint_edge), 1.0);
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        edges_.stroke(points[i], points[i + 1 < points.size() ? i + 1 : 0], edge_width, strength);
+      }
+    }
+  }
+
+  const ElementShades& shades_;
+  const PlaneView& view_;
+  Box screen_;
+  bool lines_;
+  Canvas& fills_;
+  Canvas& edges_;
+};
+
+std::uint8_t mixed(std::uint8_t below, std::uint8_t above, double part) {
+  return static_cast<std::uint8_t>(std::lround(below + part * (static_cast<double>(above) - below)));
+}
+
+Colour mixed(Colour below, Colour above, double part) {
+  return {mixed(below.red, above.red, part), mixed(below.green, above.green, part),
+          mixed(below.blue, above.blue, part)};
+}
+
+}  // namespace
+
+Box with_room(const Box& elements) {
+  if (elements.low.x > elements.high.x) {
+    return {{0, 0}, {1, 1}};
+  }
+  constexpr double part = 0.02;
+  const double room = part * std::max(elements.high.x - elements.low.x, elements.high.y - elements.low.y);
+  return {{elements.low.x - room, elements.low.y - room}, {elements.high.x + room, elements.high.y + room}};
+}
+
+StillPicture draw_still(const MeshPicture& picture, const StillOptions& options) {
+  const ElementShades shades(picture, options.value, options.before);
+  const MeshLines lines = options.lines ? mesh_lines(picture) : MeshLines{};
+  return draw_still(shades, &lines, options);
+}
+
+StillPicture draw_still(const ElementShades& shades, const MeshLines* lines, const StillOptions& options) {
+  const PlaneView view(options.window.value_or(with_room(shades.box())), options.width, options.height);
+  Canvas fills(options.width, options.height);
+  Canvas edges(options.lines ? options.width : 0, options.height);
+  Canvas dark(options.lines ? options.width : 0, options.height);
+  Workers workers(options.threads);
+  constexpr std::int64_t grain = 16384;
+  shades.elements().visit([&]<class Corners>(std::span<const Corners> elements) {
+    workers.for_blocks(std::ssize(elements), grain, [&](std::int64_t begin, std::int64_t end) {
+      ElementPainter painter(shades, view, options, fills, edges);
+      for (auto e = static_cast<std::size_t>(begin); e < static_cast<std::size_t>(end); ++e) {
+        painter.paint(e, elements[e]);
+      }
+    });
+  });
+  if (options.lines && lines != nullptr) {
+    for (const auto* const edges_of_lines : {&lines->boundary, &lines->interfaces}) {
+      for (const auto& [from, to] : *edges_of_lines) {
+        dark.stroke(view.pixel(shades.point(from)), view.pixel(shades.point(to)), line_width, 1);
+      }
+    }
+  }
+  StillPicture still{options.width, options.height, {}};
+  still.rgb.resize(3 * fills.bytes().size());
+  for (std::size_t i = 0; i < fills.bytes().size(); ++i) {
+    Colour colour = shades.colour(fills.bytes()[i]);
+    if (options.lines && edges.bytes()[i] != 0) {
+      colour = mixed(colour, edge_colour, edge_strength * edges.bytes()[i] / 255);
+    }
+    if (options.lines && dark.bytes()[i] != 0) {
+      colour = mixed(colour, line_colour, dark.bytes()[i] / 255.0);
+    }
+    still.rgb[3 * i] = colour.red;
+    still.rgb[3 * i + 1] = colour.green;
+    still.rgb[3 * i + 2] = colour.blue;
+  }
+  return still;
+}
+
+}  // namespace trismooth
