@@ -12,6 +12,14 @@ build=$project/build/release
 # shellcheck disable=SC2034
 python_environment=$project/build/python
 
+# environment_with FOLDER REQUIREMENTS: a virtual environment with the packages from PyPI that the file lists. Where they are
+# there already, nothing is done.
+environment_with() {
+  cmp --quiet "$2" "$1/requirements.txt" ||
+    { python3 -m venv "$1" && "$1/bin/pip" install --quiet --disable-pip-version-check --requirement "$2" &&
+      cp "$2" "$1/requirements.txt"; }
+}
+
 # Warnings are errors with the compiler that the project is developed with. Another one may warn of other things, and
 # that must not keep anybody from building. TRISMOOTH_WERROR=ON or OFF in the environment decides otherwise.
 warnings_as_errors() {

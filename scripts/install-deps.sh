@@ -7,7 +7,7 @@
 #                                      what Gmsh links
 #   scripts/install-deps.sh --package  also what the target `package` makes a .deb with
 #   scripts/install-deps.sh --tools    also Clang with its sanitizers, clang-format and a venv for clang-tidy
-#   scripts/install-deps.sh --docs     also Doxygen
+#   scripts/install-deps.sh --docs     also Doxygen, and what a venv for Sphinx takes
 set -euo pipefail
 
 packages=(
@@ -34,7 +34,7 @@ case "${1:-}" in
     ;;
   --package) packages+=(dpkg-dev) ;;
   --tools) packages+=(clang libclang-rt-dev llvm clang-format-14 python3-venv) ;;
-  --docs) packages+=(doxygen) ;;
+  --docs) packages+=(doxygen python3-venv) ;;
   *)
     echo "usage: install-deps.sh [--tests|--package|--tools|--docs]" >&2
     exit 2

@@ -7,13 +7,6 @@ set -euo pipefail
 # shellcheck source=scripts/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-requirements=$project/python/tests/requirements.txt
-if cmp --quiet "$requirements" "$python_environment/requirements.txt"; then
-  exit 0
-fi
-if python3 -m venv "$python_environment" &&
-  "$python_environment/bin/pip" install --quiet --disable-pip-version-check --requirement "$requirements"; then
-  cp "$requirements" "$python_environment/requirements.txt"
-else
+if ! environment_with "$python_environment" "$project/python/tests/requirements.txt"; then
   echo "note: packages from PyPI could not be installed; the tests that need them are skipped" >&2
 fi
