@@ -14,6 +14,8 @@ include_patterns = ["*.md", "docs/*.md", "examples/**.md", "benchmarks/results/*
 html_theme = "furo"
 html_title = "trismooth"
 html_show_sphinx = False
+html_static_path = ["style"]
+html_css_files = ["site.css"]
 # The pages' text is in the tree, under its own name.
 html_copy_source = False
 
@@ -22,7 +24,7 @@ myst_heading_anchors = 6
 
 # What the front page leads to, in this order. A page of docs/ that is not here is an error.
 NAVIGATION = {
-    "Use": ["docs/install", "docs/command_line", "docs/formats", "docs/walks", "examples/data/README",
+    "Use": ["docs/install", "docs/which_option", "docs/command_line", "docs/formats", "docs/walks", "examples/data/README",
             "reports/index", "docs/limits", "docs/troubleshooting"],
     "Program": ["docs/library", "docs/headers", "api/index", "docs/python", "docs/python_peers", "docs/gpu", "docs/ranks",
                 "examples/README", "examples/python/README"],
