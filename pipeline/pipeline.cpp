@@ -67,6 +67,9 @@ class DocumentRun {
     if (options.deformation) {
       throw std::invalid_argument("deformation: is for run_pipeline(); of points in memory MovingMesh has them follow");
     }
+    if (options.compared) {
+      throw std::invalid_argument("compared: is for run_pipeline(), which reads both meshes");
+    }
     const std::vector<double> points = document.points;
     const std::vector<DataArray> point_arrays = document.point_arrays;
     mesh_.take(std::move(document));
@@ -103,6 +106,10 @@ class DocumentRun {
   PipelineResult finish() {
     if (run_.options.deformation) {
       follow_boundary();
+    } else if (run_.options.compared) {
+      stages_.check();
+      stages_.compare([this] { mesh_.compare(); });
+      stages_.complete();
     } else {
       stages_.check_and_smooth();
       stages_.write();
@@ -138,10 +145,12 @@ PipelineOptions options_for(const MeshDocument& document, PipelineOptions option
 
 void require_known_formats(const PipelineOptions& options) {
   const auto& output = options.written();
-  if (names_parallel_file(options.input)) {
-    throw ReadError(options.input,
-                    "is a mesh in pieces, which 'trismooth smooth' and 'quality' read where they are built with MPI "
-                    "(-DTRISMOOTH_MPI=ON)");
+  for (const auto& input : {std::optional(options.input), options.compared}) {
+    if (input && names_parallel_file(*input)) {
+      throw ReadError(*input,
+                      "is a mesh in pieces, which 'trismooth smooth' and 'quality' read where they are built with MPI "
+                      "(-DTRISMOOTH_MPI=ON)");
+    }
   }
   if (output && names_parallel_file(*output)) {
     throw WriteError(*output,
@@ -156,8 +165,10 @@ void require_known_formats(const PipelineOptions& options) {
                                        "' names no format, nor does that of the output, " + output->string() +
                                        "; known are " + titled_format_list());
   }
-  if (format_of(options.input)) {
-    input_format(options.input);
+  for (const auto& input : {std::optional(options.input), options.compared}) {
+    if (input && format_of(*input)) {
+      input_format(*input);
+    }
   }
   if (output && !is_standard_stream(*output)) {
     output_format(*output, std::nullopt, options.format);

@@ -12,6 +12,7 @@
 
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/pipeline/comparison.h"
 #include "trismooth/pipeline/deformation.h"
 #include "trismooth/pipeline/file_groups.h"
 #include "trismooth/pipeline/held_vertices.h"
@@ -98,6 +99,11 @@ struct PipelineOptions {
   /// corners, values that follow, and a limit of time, which would leave the mesh behind its boundary. Absent: the
   /// boundary stays.
   std::optional<Deformation> deformation;
+  /// Another mesh of the same points and elements, in any format, that is compared with the input, in place of
+  /// smoothing that: the result's `after` is its quality. Elements may be listed in another order or from another
+  /// corner on; or they are listed alike, and points are in other rows, or missing where no element uses them. Another
+  /// mesh than that is a ReadError. For run_pipeline() without a mesh to write; `-`: standard input, if `input` is not.
+  std::optional<std::filesystem::path> compared;
   /// Where a mesh is smoothed that lies in no plane. The third coordinate of vertices that move is interpolated then,
   /// unless `fields` are kept. Absent: such a mesh is refused.
   std::optional<Projection> project;
@@ -191,7 +197,7 @@ struct PipelineResult {
   InputSummary input;
   Topology topology = Topology::host;  ///< who found the neighbours: host, halfedge or device
   QualityReport before;                ///< `degenerate` has triangles that repeat a vertex, too; `triangles` has not
-  std::optional<QualityReport> after;  ///< absent where nothing was smoothed
+  std::optional<QualityReport> after;  ///< absent where nothing was smoothed, nor compared, as all that is of `after`
   std::optional<SmoothingResult> smoothing;          ///< absent where nothing was smoothed
   std::optional<QuadraticQuality> quadratic_before;  ///< absent where the mesh has no quadratic elements
   std::optional<QuadraticQuality>
@@ -202,14 +208,15 @@ struct PipelineResult {
   std::vector<InterpolatedField> fields;   ///< point arrays whose values followed the mesh
   /// Where the mesh followed its boundary: `after`, `smoothing` and all else of a result are of the worst step then.
   std::optional<DeformationResult> deformation;
-  std::vector<std::string> region_names;      ///< each region's value in the file; of several arrays, "1, 7"
-  std::vector<RegionArea> areas;              ///< of each region, where vertices may slide; of all triangles
-                                              ///< together where there are no regions
-  std::vector<RegionQuality> regions_before;  ///< of each region; empty where there are no two
-  std::vector<RegionQuality> regions_after;   ///< of the result; empty also where nothing was smoothed
-  std::uint64_t coordinates_hash = 0;         ///< XXH64 of the output coordinates x, y, z as float64
-  std::uint64_t unguarded_hash = 0;           ///< coordinates_hash before the guard took vertices back
-  std::vector<std::string> notes;             ///< what the user should know, one sentence each
+  std::optional<ComparisonResult> comparison;  ///< absent where nothing was compared
+  std::vector<std::string> region_names;       ///< each region's value in the file; of several arrays, "1, 7"
+  std::vector<RegionArea> areas;               ///< of each region, where vertices may slide or meshes are compared; of
+                                               ///< all elements together where there are no regions
+  std::vector<RegionQuality> regions_before;   ///< of each region; empty where there are no two
+  std::vector<RegionQuality> regions_after;    ///< of the result; empty also where nothing was smoothed
+  std::uint64_t coordinates_hash = 0;          ///< XXH64 of the output coordinates x, y, z as float64
+  std::uint64_t unguarded_hash = 0;            ///< coordinates_hash before the guard took vertices back
+  std::vector<std::string> notes;              ///< what the user should know, one sentence each
   std::vector<std::string> losses;    ///< what the output does not hold of the input, one sentence each: always shown
   std::vector<std::string> warnings;  ///< what the user should have known before the smoothing, one sentence each
   PipelineTimings timings_ms;

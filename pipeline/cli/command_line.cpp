@@ -46,6 +46,7 @@ constexpr const char* help_footer =
     "  trismooth smooth coast.vtu out.vtu --fixed-ids anchors.txt --report run.html\n"
     "  trismooth deform wing.vtu turned.vtu --displacement-file wing.csv\n"
     "  trismooth quality plate.vtk --require 'min_angle>=20' --require 'inverted==0'\n"
+    "  trismooth compare plate.msh elsewhere.vtu --report changes.html\n"
     "\n"
     "'trismooth COMMAND --help' lists a command's options.\n"
     "\n"
@@ -63,7 +64,8 @@ std::string help_hint(const CLI::App& app) {
 
 ExitCode run_chosen(CLI::App& app, int argc, const char* const* argv, const CommandEnvironment& environment) {
   std::vector<Subcommand> subcommands{add_smooth_command(app, environment), add_deform_command(app, environment),
-                                      add_quality_command(app, environment), add_generate_command(app, environment)};
+                                      add_quality_command(app, environment), add_compare_command(app, environment),
+                                      add_generate_command(app, environment)};
   for (const AddSubcommand add : environment.more_commands) {
     subcommands.push_back(add(app, environment));
   }

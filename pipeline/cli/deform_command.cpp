@@ -8,7 +8,6 @@
 #include "trismooth/pipeline/cli/interrupt.h"
 #include "trismooth/pipeline/cli/mesh_options.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
-#include "trismooth/pipeline/cli/messages.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
 #include "trismooth/pipeline/cli/smoothing_options.h"
 #include "trismooth/pipeline/cli/subcommands.h"
@@ -70,16 +69,7 @@ ExitCode run_deform(MeshRunSettings settings, const CommandEnvironment& environm
       return false;
     };
   }
-  if (!environment.over_ranks) {
-    return run_on_mesh(std::move(settings), environment);
-  }
-  if (settings.verbosity != Verbosity::quiet) {
-    print_note(environment.err, "a mesh follows its boundary in one process: rank 0 does it, with the whole mesh");
-  }
-  CommandEnvironment alone = environment;
-  alone.over_ranks = false;
-  alone.run = &run_pipeline;
-  return run_on_mesh(std::move(settings), alone);
+  return run_alone(std::move(settings), environment, "a mesh follows its boundary in one process");
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ std::vector<std::filesystem::path> meshes_of_series(const PipelineOptions& optio
 /// The files that a run reads and writes, but for reports.
 std::vector<std::filesystem::path> other_files(const PipelineOptions& options) {
   std::vector<std::filesystem::path> files{options.input};
-  for (const auto& file : {options.written(), options.fixed_ids}) {
+  for (const auto& file : {options.written(), options.compared, options.fixed_ids}) {
     if (file) {
       files.push_back(*file);
     }
@@ -165,7 +165,7 @@ void require_own_meshes(const PipelineOptions& options) {
 /// A place where no file can be made is told before the work, not after it.
 void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
   const PipelineOptions& options = settings.pipeline;
-  require_use_of_format(options.format, {options.input, options.written()});
+  require_use_of_format(options.format, {options.input, options.compared, options.written()});
   const bool is_in_pieces =
       names_parallel_file(options.input) || (options.written() && names_parallel_file(*options.written()));
   if (!over_ranks || !is_in_pieces) {
@@ -408,6 +408,19 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
     end_without_reader();
   }
   return code;
+}
+
+ExitCode run_alone(MeshRunSettings settings, const CommandEnvironment& environment, std::string_view what) {
+  if (!environment.over_ranks) {
+    return run_on_mesh(std::move(settings), environment);
+  }
+  if (settings.verbosity != Verbosity::quiet) {
+    print_note(environment.err, std::string(what) + ": rank 0 does it, with the whole mesh");
+  }
+  CommandEnvironment alone = environment;
+  alone.over_ranks = false;
+  alone.run = &run_pipeline;
+  return run_on_mesh(std::move(settings), alone);
 }
 
 }  // namespace trismooth

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/pipeline/cli/command_line.h"
@@ -14,7 +15,7 @@ namespace trismooth {
 /// How much a command says.
 enum class Verbosity : std::uint8_t { quiet, normal, verbose };
 
-/// What the commands that run the pipeline on a mesh (smooth, deform and quality) are told.
+/// What the commands that run the pipeline on a mesh (smooth, deform, quality and compare) are told.
 struct MeshRunSettings {
   PipelineOptions pipeline;
   std::vector<std::filesystem::path> reports;
@@ -25,5 +26,9 @@ struct MeshRunSettings {
 /// Runs the pipeline with progress and cancellation, prints the result, writes the reports and checks the gates.
 /// Throws what run_pipeline() throws, WriteError for a report.
 ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environment);
+
+/// run_on_mesh() of what is not shared among ranks: of several the first one does it, and says so. `what`: "a mesh
+/// follows its boundary in one process".
+ExitCode run_alone(MeshRunSettings settings, const CommandEnvironment& environment, std::string_view what);
 
 }  // namespace trismooth

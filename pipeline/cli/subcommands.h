@@ -21,6 +21,7 @@ struct Subcommand {
 /// Each adds its command with its options to `app`; one source file a command. `environment` must outlive the result.
 Subcommand add_smooth_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_deform_command(CLI::App& app, const CommandEnvironment& environment);
+Subcommand add_compare_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_quality_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_generate_command(CLI::App& app, const CommandEnvironment& environment);
 Subcommand add_info_command(CLI::App& app, const CommandEnvironment& environment);

@@ -42,23 +42,6 @@ DegreeRange range_of(const PlanarMesh& mesh, const MeshDocument& document) {
   return range;
 }
 
-void require_degrees(const PlanarMesh& mesh, const MeshDocument& document, const std::filesystem::path& path) {
-  for (std::size_t v = 0; v < document.point_count(); ++v) {
-    const double longitude = document.points[3 * v];
-    const double latitude = document.points[3 * v + 1];
-    if (mesh.in_cell[v] == 0 || (std::abs(longitude) <= 360 && std::abs(latitude) < 90)) {
-      continue;
-    }
-    if (std::abs(latitude) == 90) {
-      throw ReadError(path, fmt::format("vertex {} is at a pole, which has no place on the map of --geographic", v));
-    }
-    throw ReadError(path,
-                    fmt::format("vertex {} is at {}, {}: no longitude and latitude in degrees, which --geographic "
-                                "asks for",
-                                v, longitude, latitude));
-  }
-}
-
 /// The lowest longitude of the 360 degrees that the file's are among.
 double west_of(const DegreeRange& range) {
   if (range.west < -180 || range.east > 360) {
@@ -110,6 +93,23 @@ bool has_sides_in_degrees(const PlanarMesh& mesh, const MeshDocument& document) 
 }
 
 }  // namespace
+
+void require_degrees(const PlanarMesh& mesh, const MeshDocument& document, const std::filesystem::path& path) {
+  for (std::size_t v = 0; v < document.point_count(); ++v) {
+    const double longitude = document.points[3 * v];
+    const double latitude = document.points[3 * v + 1];
+    if (mesh.in_cell[v] == 0 || (std::abs(longitude) <= 360 && std::abs(latitude) < 90)) {
+      continue;
+    }
+    if (std::abs(latitude) == 90) {
+      throw ReadError(path, fmt::format("vertex {} is at a pole, which has no place on the map of --geographic", v));
+    }
+    throw ReadError(path,
+                    fmt::format("vertex {} is at {}, {}: no longitude and latitude in degrees, which --geographic "
+                                "asks for",
+                                v, longitude, latitude));
+  }
+}
 
 void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::filesystem::path& path) {
   const Plane& plane = mesh.plane;

@@ -15,6 +15,10 @@ namespace trismooth {
 /// that does not lie in the plane of x and y, and for vertices of cells that are no such numbers or at a pole.
 void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::filesystem::path& path);
 
+/// Throws ReadError naming `path` for vertices of cells of the document, which has those of the mesh, that are no
+/// longitudes and latitudes, or at a pole.
+void require_degrees(const PlanarMesh& mesh, const MeshDocument& document, const std::filesystem::path& path);
+
 /// Whether x and y could well be longitude and latitude in degrees: a mesh of one of the formats that hold such ones,
 /// with coordinates in their range and an extent of more than 3.
 bool looks_geographic(const PlanarMesh& mesh, const MeshDocument& document);

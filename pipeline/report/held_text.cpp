@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,7 +36,44 @@ std::string counted_names(const std::vector<Group>& groups, std::int64_t Group::
   return shown < groups.size() ? names + fmt::format(" and {} more", groups.size() - shown) : names;
 }
 
+void add_reason(std::vector<std::string>& reasons, std::int64_t count, std::string_view what) {
+  if (count > 0) {
+    reasons.push_back(fmt::format("{} {}", count, what));
+  }
+}
+
+/// What the mesh itself says, with that text of its interfaces, if any.
+std::vector<std::string> reasons_of(const HeldVertices& held, std::string interface) {
+  std::vector<std::string> reasons;
+  add_reason(reasons, held.boundary, "boundary");
+  if (!interface.empty()) {
+    reasons.push_back(std::move(interface));
+  }
+  add_reason(reasons, held.non_manifold, "non-manifold");
+  add_reason(reasons, held.bow_tie, "bow tie");
+  add_reason(reasons, held.other_cells, "of other cells");
+  add_reason(reasons, held.unused, "unused");
+  add_reason(reasons, held.layers, "in layers");
+  return reasons;
+}
+
+/// "140 boundary, 672 interface, 8 of them both"
+std::string joined_reasons(const std::vector<std::string>& reasons, std::int64_t several) {
+  std::string text = list_text(reasons, [](const std::string& reason) { return reason; });
+  if (several > 0) {
+    text += fmt::format(", {} of them {}", several, reasons.size() == 2 ? "both" : "for several reasons");
+  }
+  return text;
+}
+
 }  // namespace
+
+std::string held_counts_text(const HeldVertices& held) {
+  std::vector<std::string> reasons =
+      reasons_of(held, held.interface > 0 ? fmt::format("{} interface", held.interface) : "");
+  add_reason(reasons, held.named, "named");
+  return joined_reasons(reasons, held.several);
+}
 
 std::string line_groups_text(const InputSummary& input) {
   return counted_names(input.line_groups, &FileLineGroup::vertices);
@@ -43,25 +81,13 @@ std::string line_groups_text(const InputSummary& input) {
 
 std::string held_text(const InputSummary& input) {
   const HeldVertices& held = input.held;
-  std::vector<std::string> reasons;
-  const auto add = [&](std::int64_t count, std::string_view what) {
-    if (count > 0) {
-      reasons.push_back(fmt::format("{} {}", count, what));
-    }
-  };
-  add(held.boundary, "boundary");
-  if (input.region_arrays.empty()) {
-    add(held.interface, "interface");
-  } else if (input.regions == 1) {
-    reasons.push_back(fmt::format("no interface ({} is one region)", quoted_names(input.region_arrays)));
-  } else {
-    reasons.push_back(fmt::format("{} interface ({})", held.interface, quoted_names(input.region_arrays)));
+  std::string interface = held.interface > 0 ? fmt::format("{} interface", held.interface) : "";
+  if (!input.region_arrays.empty()) {
+    interface = input.regions == 1
+                    ? fmt::format("no interface ({} is one region)", quoted_names(input.region_arrays))
+                    : fmt::format("{} interface ({})", held.interface, quoted_names(input.region_arrays));
   }
-  add(held.non_manifold, "non-manifold");
-  add(held.bow_tie, "bow tie");
-  add(held.other_cells, "of other cells");
-  add(held.unused, "unused");
-  add(held.layers, "in layers");
+  std::vector<std::string> reasons = reasons_of(held, std::move(interface));
   if (!input.fixed_array.empty()) {
     reasons.push_back(fmt::format("{} by the array '{}'", input.fixed_array_vertices, input.fixed_array));
   }
@@ -71,14 +97,8 @@ std::string held_text(const InputSummary& input) {
   if (input.fixed_ids_vertices > 0 || !input.fixed_ids.empty()) {
     reasons.push_back(fmt::format("{} by the file {}", input.fixed_ids_vertices, input.fixed_ids.string()));
   }
-  std::string text = fmt::format("{} of {}", input.fixed_vertices, input.vertices - input.middle_nodes);
-  for (const std::string& reason : reasons) {
-    text += (&reason == reasons.data() ? ": " : ", ") + reason;
-  }
-  if (held.several > 0) {
-    text += fmt::format(", {} of them {}", held.several, reasons.size() == 2 ? "both" : "for several reasons");
-  }
-  return text;
+  const std::string text = fmt::format("{} of {}", input.fixed_vertices, input.vertices - input.middle_nodes);
+  return reasons.empty() ? text : text + ": " + joined_reasons(reasons, held.several);
 }
 
 std::string_view describe(RegionReason reason) {

@@ -15,6 +15,9 @@ namespace trismooth {
 /// Reasons that hold no vertex are left out, but arrays that were obeyed are named, also where they hold none.
 std::string held_text(const InputSummary& input);
 
+/// What holds vertices and how many: "140 boundary, 672 interface, 8 of them both".
+std::string held_counts_text(const HeldVertices& held);
+
 /// Who found the neighbours of vertices: "found by OpenMesh halfedges".
 std::string_view topology_text(Topology found_by);
 

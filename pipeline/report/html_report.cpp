@@ -16,6 +16,7 @@
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/coordinates_hash.h"
 #include "trismooth/pipeline/picture/mesh_view_html.h"
+#include "trismooth/pipeline/report/comparison_text.h"
 #include "trismooth/pipeline/report/held_html.h"
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/html_page.h"
@@ -60,12 +61,17 @@ std::string header(const PipelineOptions& options, const PipelineResult& result,
   }
   std::string html = fmt::format("<header>\n<div class=\"kind\">{}</div>\n<h1>{}</h1>\n<div class=\"soft\">{}</div>\n",
                                  options.deformation ? "Mesh deformation report"
+                                 : options.compared  ? "Mesh comparison report"
                                  : options.output    ? "Mesh smoothing report"
                                                      : "Mesh quality report",
                                  escape_html(input.path.filename().string()), counts);
   if (options.written()) {
     html += fmt::format("<div class=\"soft\">written to <code>{}</code></div>\n",
                         escape_html(shown_meshes(options, result)));
+  }
+  if (result.comparison) {
+    html += fmt::format("<div class=\"soft\">compared with <code>{}</code></div>\n",
+                        escape_html(result.comparison->path.string()));
   }
   if (!record.date.empty()) {
     html += fmt::format("<div class=\"soft\">{}</div>\n", escape_html(record.date));
@@ -92,6 +98,13 @@ std::string lead(const PipelineResult& result, const RunRecord& record) {
     }
     text += fmt::format(" in {} sweep{}; {}.", count_text(result.smoothing->sweeps),
                         result.smoothing->sweeps == 1 ? "" : "s", describe(result.smoothing->stop_reason));
+  }
+  if (const auto& comparison = result.comparison; comparison && last.elements() > 0) {
+    text = fmt::format(
+        "{} of {} vertices moved{}.", count_text(comparison->moved_vertices), count_text(result.input.vertices),
+        comparison->held_vertices > 0
+            ? fmt::format(", {} of them where a smoothing holds them", count_text(comparison->held_vertices))
+            : "");
   }
   if (last.inverted > 0) {
     text += fmt::format(" {} of {} {} {} inverted.", count_text(last.inverted), count_text(last.elements()), several,
@@ -425,6 +438,29 @@ std::string outcome_table(const PipelineResult& result) {
   return row_table(rows);
 }
 
+std::string comparison_table(const PipelineResult& result) {
+  const ComparisonResult& comparison = *result.comparison;
+  Rows rows{{"vertices moved", escape_html(moved_text(result))}};
+  if (comparison.rounded_vertices > 0) {
+    rows.emplace_back("vertices that differ by rounding alone", count_text(comparison.rounded_vertices));
+  }
+  if (comparison.moved_vertices > 0) {
+    rows.emplace_back("of these held by a smoothing",
+                      comparison.held_vertices == 0 ? "none" : escape_html(moved_held_text(comparison)));
+    rows.emplace_back("elements around them", changed_elements_text(comparison));
+  }
+  for (std::size_t region = 0; region < result.areas.size(); ++region) {
+    const RegionArea& area = result.areas[region];
+    const std::string name =
+        region < result.region_names.size() ? "area of " + escape_html(result.region_names[region]) : "area";
+    rows.emplace_back(name, area.before == area.after ? fmt::format("{:.10g}", area.before)
+                                                      : fmt::format("{:.10g} → {:.10g}, {:+.2g} %", area.before,
+                                                                    area.after, 100 * area.relative_change()));
+  }
+  rows.emplace_back("coordinates", fmt::format("<code>{}</code> (XXH64)", hash_text(comparison.coordinates_hash)));
+  return row_table(rows);
+}
+
 std::string timings_table(const PipelineTimings& timings) {
   const auto parts = timing_parts(timings);
   double longest = 0;
@@ -470,6 +506,9 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   if (result.deformation) {
     html += html_section(result.deformation->steps.size() == 1 ? "How it followed its boundary" : "Steps",
                          steps_table(*result.deformation));
+  }
+  if (result.comparison) {
+    html += html_section("What moved", comparison_table(result));
   }
   if (result.before.elements() > 0) {
     html +=

@@ -37,8 +37,13 @@ Json name_of(Enum value) {
   return std::string(to_string(value));
 }
 
+Json held_json(const HeldVertices& held) {
+  return {{"boundary", held.boundary}, {"interface", held.interface},     {"non_manifold", held.non_manifold},
+          {"bow_tie", held.bow_tie},   {"other_cells", held.other_cells}, {"unused", held.unused},
+          {"named", held.named},       {"layers", held.layers},           {"several", held.several}};
+}
+
 Json input_json(const InputSummary& input) {
-  const HeldVertices& held = input.held;
   Json region_arrays = Json::array();
   for (const RegionArray& array : input.region_arrays) {
     region_arrays.push_back({{"name", array.name},
@@ -81,16 +86,7 @@ Json input_json(const InputSummary& input) {
           {"point_sets", std::move(point_sets)},
           {"cell_sets", std::move(cell_sets)},
           {"line_groups", std::move(line_groups)},
-          {"held",
-           {{"boundary", held.boundary},
-            {"interface", held.interface},
-            {"non_manifold", held.non_manifold},
-            {"bow_tie", held.bow_tie},
-            {"other_cells", held.other_cells},
-            {"unused", held.unused},
-            {"named", held.named},
-            {"layers", held.layers},
-            {"several", held.several}}}};
+          {"held", held_json(input.held)}};
 }
 
 Json options_json(const PipelineOptions& options, const PipelineResult& run) {
@@ -361,6 +357,29 @@ Json deformation_json(const PipelineOptions& options, const std::optional<Deform
           {"steps", std::move(steps)}};
 }
 
+Json comparison_json(const std::optional<ComparisonResult>& comparison) {
+  if (!comparison) {
+    return nullptr;
+  }
+  return {{"path", comparison->path.string()},
+          {"format", name_of(comparison->format)},
+          {"moved_vertices", comparison->moved_vertices},
+          {"rounded_vertices", comparison->rounded_vertices},
+          {"held_vertices", comparison->held_vertices},
+          {"held", held_json(comparison->held)},
+          {"largest_displacement", number_json(comparison->largest_displacement)},
+          {"mean_displacement", number_json(comparison->mean_displacement)},
+          {"farthest_vertex", comparison->farthest_vertex < 0 ? Json(nullptr) : Json(comparison->farthest_vertex)},
+          {"largest_relative_displacement", number_json(comparison->largest_relative_displacement)},
+          {"mean_relative_displacement", number_json(comparison->mean_relative_displacement)},
+          {"better_elements", comparison->better_elements},
+          {"worse_elements", comparison->worse_elements},
+          {"newly_invalid_elements", comparison->newly_invalid_elements},
+          {"newly_valid_elements", comparison->newly_valid_elements},
+          {"mirrored_elements", comparison->mirrored_elements},
+          {"coordinates_hash", hash_text(comparison->coordinates_hash)}};
+}
+
 Json timings_json(const PipelineTimings& timings) {
   Json json = Json::object();
   for (const auto& [name, milliseconds] : timing_parts(timings)) {
@@ -389,6 +408,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"fields", fields_json(result.fields)},
       {"areas", areas_json(result)},
       {"deformation", deformation_json(options, result.deformation)},
+      {"comparison", comparison_json(result.comparison)},
       {"gates", gates_json(record.gates)},
       {"smoothing", result.smoothing ? smoothing_json(*result.smoothing, result.topology) : Json(nullptr)},
       {"coordinates_hash", result.smoothing ? Json(hash_text(result.coordinates_hash)) : Json(nullptr)},

@@ -8,6 +8,7 @@
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/report/comparison_text.h"
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/labelled_line.h"
 #include "trismooth/pipeline/report/region_table.h"
@@ -157,9 +158,30 @@ std::string deformation_lines(const PipelineResult& result, TextDetail detail) {
                                                        step_text(steps[worst])));
 }
 
+/// Vertices that have moved, be it in the smoothing or from one mesh to the other.
+std::int64_t count_moved(const PipelineResult& result) {
+  return result.comparison ? result.comparison->moved_vertices : result.smoothing->moved_vertices;
+}
+
+/// How the other mesh differs.
+std::string comparison_lines(const PipelineResult& result) {
+  const ComparisonResult& comparison = *result.comparison;
+  std::string text = labelled_line("compared:", comparison.path.string());
+  text += labelled_line("moved:", moved_text(result));
+  if (comparison.moved_vertices > 0) {
+    text += labelled_line("", comparison.held_vertices == 0
+                                  ? std::string("none of them is held by a smoothing")
+                                  : fmt::format("{} of them are held by a smoothing: {}", comparison.held_vertices,
+                                                moved_held_text(comparison)));
+    text += labelled_line("elements:", changed_elements_text(comparison));
+    text += labelled_line("domain:", areas_text(result));
+  }
+  return text;
+}
+
 /// How sizes changed; nothing where no vertex moved.
 std::string sizes_line(const PipelineResult& result) {
-  if (!result.size_change || result.smoothing->moved_vertices == 0) {
+  if (!result.size_change || count_moved(result) == 0) {
     return {};
   }
   const SizeChange& change = *result.size_change;
@@ -286,13 +308,7 @@ std::string sliding_text(const PipelineResult& result) {
                 ? fmt::format("; lines are up to {:.3g} from where they were, {:.3g} of an edge",
                               sliding.largest_deviation, sliding.relative_deviation)
                 : std::string("; lines are where they were");
-    double change = 0;
-    for (const RegionArea& area : result.areas) {
-      change = std::max(change, std::abs(area.relative_change()));
-    }
-    text += change == 0 ? std::string("; areas are what they were")
-                        : fmt::format("; areas{} changed by {:.2g} % at most",
-                                      result.areas.size() > 1 ? " of regions" : "", 100 * change);
+    text += "; " + areas_text(result);
   }
   return text;
 }
@@ -386,6 +402,10 @@ std::string text_report(const PipelineOptions& options, const PipelineResult& re
     text += sizes_line(result);
     text += size_fit_line(result);
     text += fields_line(result);
+  }
+  if (result.comparison) {
+    text += comparison_lines(result);
+    text += sizes_line(result);
   }
   const bool is_summary = result.after && detail == TextDetail::summary && result.before.elements() > 0;
   text +=

@@ -11,6 +11,7 @@
 #include "trismooth/base/machine/peak_memory.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/standard_streams.h"
+#include "trismooth/pipeline/stages/compare_stage.h"
 #include "trismooth/pipeline/stages/picture_stage.h"
 #include "trismooth/pipeline/stages/smooth_stage.h"
 #include "trismooth/pipeline/stages/topology_stage.h"
@@ -69,6 +70,9 @@ void DocumentMesh::read() {
   const FileFormat format = run_.document.format;
   const bool converts = options.output && output_format(*options.output, format, options.format) != format;
   std::ranges::copy(run_.document.notes, std::back_inserter(converts ? run_.result.losses : run_.result.notes));
+  if (options.compared) {
+    compared_ = read_compared(run_);
+  }
 }
 
 void DocumentMesh::take(MeshDocument document) {
@@ -98,6 +102,10 @@ CoarseBoundary DocumentMesh::coarse_boundary() {
 Deformer& DocumentMesh::deform() {
   deformer_ = std::make_unique<Deformer>(run_);
   return *deformer_;
+}
+
+void DocumentMesh::compare() {
+  compare_meshes(run_, compared_);
 }
 
 SmoothingResult DocumentMesh::smooth() {

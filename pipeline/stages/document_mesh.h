@@ -22,6 +22,8 @@ class DocumentMesh final : public StagedMesh {
   void take(MeshDocument document);
   /// Has the mesh follow its boundary from now on (PipelineOptions::deformation). It is connected.
   Deformer& deform();
+  /// Has the mesh be the other one (PipelineOptions::compared), and tells how they differ. It is connected and checked.
+  void compare();
 
   RunContext& context() override { return run_; }
   void together(const std::function<void()>& work) const override { work(); }
@@ -39,6 +41,7 @@ class DocumentMesh final : public StagedMesh {
  private:
   RunState run_;
   std::unique_ptr<Deformer> deformer_;  ///< null: the boundary stays
+  MeshDocument compared_;               ///< where meshes are compared
 };
 
 }  // namespace trismooth

@@ -69,20 +69,6 @@ void compare_sizes(RunState& run, const MeshView& before) {
   result.timings_ms.check_after += watch.milliseconds();
 }
 
-/// Where vertices may slide.
-void compare_areas(RunState& run, const MeshView& before) {
-  const Stopwatch watch;
-  const std::int32_t count = std::max(run.regions.count(), 1);
-  const std::vector<double> areas_before = region_areas(before, run.regions.of_triangle, count);
-  const std::vector<double> areas_after = region_areas(run.view(), run.regions.of_triangle, count);
-  // (The frame of the result may be another one.)
-  for (std::size_t region = 0; region < areas_before.size(); ++region) {
-    run.result.areas.push_back({std::ldexp(areas_before[region], 2 * before.exponent),
-                                std::ldexp(areas_after[region], 2 * run.local.frame.exponent)});
-  }
-  run.result.timings_ms.check_after += watch.milliseconds();
-}
-
 SmoothingResult smooth_points(RunState& run) {
   PlanarMesh& mesh = run.mesh;
   std::vector<double>& xyz = run.document.points;
@@ -141,6 +127,19 @@ SmoothingResult smooth_mesh(RunState& run) {
     }
   }
   return smoothing;
+}
+
+void compare_areas(RunState& run, const MeshView& before) {
+  const Stopwatch watch;
+  const std::int32_t count = std::max(run.regions.count(), 1);
+  const std::vector<double> areas_before = region_areas(before, run.regions.of_triangle, count);
+  const std::vector<double> areas_after = region_areas(run.view(), run.regions.of_triangle, count);
+  // (The frame of the result may be another one.)
+  for (std::size_t region = 0; region < areas_before.size(); ++region) {
+    run.result.areas.push_back({std::ldexp(areas_before[region], 2 * before.exponent),
+                                std::ldexp(areas_after[region], 2 * run.local.frame.exponent)});
+  }
+  run.result.timings_ms.check_after += watch.milliseconds();
 }
 
 }  // namespace trismooth

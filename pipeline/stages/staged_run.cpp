@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "trismooth/pipeline/stages/compare_stage.h"
 #include "trismooth/pipeline/stages/warnings.h"
 
 namespace trismooth {
@@ -30,6 +31,7 @@ StagedRun::StagedRun(StagedMesh& mesh) : mesh_(mesh), run_(mesh.context()) {
     run_.options.smoothing.validate();
     run_.options.slide.validate();
     check_deformation(run_.options);
+    check_comparison(run_.options);
   });
 }
 
@@ -99,17 +101,30 @@ void StagedRun::smooth() {
   timed(Stage::check_after, timings.check_after, [this] { check_after(); });
 }
 
+void StagedRun::compare(const std::function<void()>& take_place) {
+  timed(Stage::check_after, run_.result.timings_ms.check_after, [&] {
+    take_place();
+    check_after();
+  });
+}
+
 void StagedRun::check_after() {
   PipelineResult& result = run_.result;
   QualityOfMesh quality = mesh_.quality();
-  result.smoothing->inverted = quality.report.inverted;
-  result.smoothing->degenerate = quality.report.degenerate;
+  if (result.smoothing) {
+    result.smoothing->inverted = quality.report.inverted;
+    result.smoothing->degenerate = quality.report.degenerate;
+  }
   result.after = std::move(quality.report);
   result.regions_after = std::move(quality.regions);
   result.quadratic_after = quality.quadratic;
   keep_picture();
   if (run_.options.deformation) {
     return;  // of all steps together it is said
+  }
+  if (run_.options.compared) {
+    warn_of_comparison(run_);
+    return;
   }
   for (std::string& warning : warnings_of_invalid(result)) {
     run_.warn(std::move(warning));

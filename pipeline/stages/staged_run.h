@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/stages/run_context.h"
@@ -23,6 +25,9 @@ class StagedRun {
   void check();
   /// The smoothing, and the check behind it.
   void smooth();
+  /// Has `take_place` put another mesh of the same elements in the place of the one that has been checked, and checks
+  /// that.
+  void compare(const std::function<void()>& take_place);
   /// Writes the mesh, where there is an output, and what belongs to it. Completes the result.
   void write();
   /// The times and the memory of the whole run.

@@ -33,7 +33,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 LINKED_PAGES = PAGES + [ROOT / name for name in ("CONTRIBUTING.md", "SECURITY.md", "examples/README.md",
                                              "examples/data/README.md")]
-COMMANDS = ("smooth", "deform", "quality", "generate", "bench", "info")
+COMMANDS = ("smooth", "deform", "quality", "compare", "generate", "bench", "info")
 # Options of other programs that the pages name.
 FOREIGN_OPTIONS = {"--prefix", "--preset", "--build", "--install", "--target", "--cflags", "--libs", "--check",
                    "--sanitize", "--tests", "--tools", "--package", "--optimesh-python", "--files", "--cuda",

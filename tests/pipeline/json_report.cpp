@@ -29,11 +29,27 @@ using Keys = std::vector<std::string>;
 
 TEST_CASE("the keys of the JSON report are those of the contract, in their order") {
   const Json report = Json::parse(json_report(sample::options(), sample::result(), sample::record()));
-  CHECK(keys_of(report) == Keys{"trismooth",        "date",     "command",    "input",
-                                "options",          "before",   "after",      "size_change",
-                                "size_array",       "size_fit", "fields",     "areas",
-                                "deformation",      "gates",    "smoothing",  "coordinates_hash",
-                                "uncommitted_hash", "warnings", "timings_ms", "peak_memory_bytes"});
+  CHECK(keys_of(report) == Keys{"trismooth",
+                                "date",
+                                "command",
+                                "input",
+                                "options",
+                                "before",
+                                "after",
+                                "size_change",
+                                "size_array",
+                                "size_fit",
+                                "fields",
+                                "areas",
+                                "deformation",
+                                "comparison",
+                                "gates",
+                                "smoothing",
+                                "coordinates_hash",
+                                "uncommitted_hash",
+                                "warnings",
+                                "timings_ms",
+                                "peak_memory_bytes"});
   CHECK(keys_of(report["size_change"]) == Keys{"elements", "left_out", "rms_log_ratio", "ratio_p1", "ratio_p99"});
   CHECK(keys_of(report["gates"][1]) == Keys{"gate", "name", "comparison", "bound", "value", "passed"});
   CHECK(keys_of(report["input"]) == Keys{"path",
