@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view region_name = "region";
 constexpr std::string_view moved_name = "moved";
-constexpr int steps = ElementShades::last - ElementShades::first;
+constexpr int shade_steps = ElementShades::last - ElementShades::first;
 
 template <class Points>
 constexpr ElementKind kind_of = std::tuple_size_v<Points> == 3 ? ElementKind::triangle : ElementKind::quadrilateral;
@@ -36,7 +36,7 @@ bool has_metric(Metric metric, ElementKind kind) {
 /// Which shade has the place of a scale from the worst to the best. (Also of what is no number.)
 std::uint8_t shade_at(double place) {
   const double from_best = place > 0 ? 1 - std::min(place, 1.0) : 1.0;
-  return static_cast<std::uint8_t>(ElementShades::first + static_cast<int>(std::floor(from_best * steps + 0.5)));
+  return static_cast<std::uint8_t>(ElementShades::first + static_cast<int>(std::floor(from_best * shade_steps + 0.5)));
 }
 
 }  // namespace
@@ -93,8 +93,8 @@ ElementShades::ElementShades(const MeshPicture& picture, PictureValue value, boo
   colours_.fill({255, 255, 255});
   colours_[lacking] = lacking_colour;
   colours_[inverted] = inverted_colour;
-  for (int i = 0; i <= steps; ++i) {
-    const double part = static_cast<double>(i) / steps;
+  for (int i = 0; i <= shade_steps; ++i) {
+    const double part = static_cast<double>(i) / shade_steps;
     colours_[static_cast<std::size_t>(first + i)] =
         value.is_quality()                ? colour_at(quality_colours, 1 - part)
         : value.kind == ShownKind::region ? region_colours[static_cast<std::size_t>(i) % region_colours.size()]

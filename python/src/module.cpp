@@ -9,6 +9,7 @@
 #include "trismooth/python/flat_mesh.h"
 #include "trismooth/python/results.h"
 #include "trismooth/python/smoothing.h"
+#include "trismooth/python/view.h"
 #include "trismooth/version.h"
 
 NB_MODULE(_core, module) {
@@ -23,6 +24,7 @@ NB_MODULE(_core, module) {
   bind_moving(module);
   bind_quality_of_arrays(module);
   bind_flat_mesh(module);
+  bind_view(module);
   bind_device(module);
   bind_files(module);
   module.def("cuda_text", &cuda_text);

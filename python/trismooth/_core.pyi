@@ -193,6 +193,16 @@ def quality(points: Any, triangles: Any, threads: int) -> tuple[QualityReport, d
 def repeated_triangles(triangles: Any, vertex_count: int) -> npt.NDArray[np.int32]: ...
 def renumbered(report: QualityReport, numbers: npt.NDArray[np.int64]) -> QualityReport: ...
 def metrics() -> list[tuple[str, str, str, bool]]: ...
+def view_page(
+    title: str,
+    before: Optional[npt.NDArray[np.float64]],
+    after: npt.NDArray[np.float64],
+    triangles: Any,
+    regions: Any,
+    region_names: list[str],
+    fixed: Any,
+    threads: int,
+) -> str: ...
 def cuda_text() -> str: ...
 
 class HostPlan:

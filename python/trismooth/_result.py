@@ -11,6 +11,8 @@ from ._core import QualityReport, SlidingResult, SweepRecord
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from ._show import View
+
 
 class NotComputed(AttributeError):
     """A quality that was not asked for: pass ``quality=True``."""
@@ -323,6 +325,44 @@ class Result:
         from ._plot import plot
 
         return plot(self, **options)
+
+    def view(self, **options: Any) -> View:
+        """The page that shows the mesh before and after, zoomed, panned and coloured by any metric.
+
+        It is the view of the program's HTML report: elements are clicked for their metrics, a slider leads from before
+        to after, held vertices and moves are switched on. It needs no network. Where the input points are not there, as
+        of a mesh that was smoothed in place, there is only one state. ``view().html`` is the page, ``view().save(file)``
+        writes it.
+
+        Parameters
+        ----------
+        regions : array of M labels, optional
+            Of the elements; borders between different labels are drawn as lines.
+        fixed : array of N bool, or of vertex numbers, optional
+            The vertices that were held, beside those that the mesh itself holds.
+        title : str, optional
+            Of the page.
+        threads : int, optional
+            To make the page with. Default: all.
+
+        Raises
+        ------
+        ValueError
+            For a mesh without elements, and labels of another number than the elements.
+        """
+        from ._show import view
+
+        return view(self, **options)
+
+    def show(self, **options: Any) -> Optional[View]:
+        """Shows the mesh before and after: in Jupyter as the value of a cell, elsewhere in the browser.
+
+        See :meth:`view` for the options, and for a page to keep. In Jupyter the view is returned, which shows it; a
+        script gets None, and a warning where there is no browser.
+        """
+        from ._show import show
+
+        return show(self, **options)
 
     def _moves(self) -> str:
         if self.moved == 0 and had_no_time(self._outcome):
