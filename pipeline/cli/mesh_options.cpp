@@ -9,6 +9,7 @@
 #include "trismooth/pipeline/cli/format_option.h"
 #include "trismooth/pipeline/cli/mesh_run.h"
 #include "trismooth/pipeline/cli/option_parsing.h"
+#include "trismooth/pipeline/cli/picture_options.h"
 #include "trismooth/pipeline/report/report_file.h"
 
 namespace trismooth {
@@ -99,6 +100,7 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
       },
       repeatable)
       ->group(option_group::results);
+  add_picture_options(command, settings.pictures);
   add_parsed_option(
       command, "--require", "'NAME>=X'",
       "Exit with 1 if the result misses this. Compares by >= <= > < ==; names: min_angle, max_angle, inverted, "

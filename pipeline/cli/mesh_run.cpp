@@ -32,6 +32,7 @@
 #include "trismooth/pipeline/report/labelled_line.h"
 #include "trismooth/pipeline/report/region_table.h"
 #include "trismooth/pipeline/report/report_file.h"
+#include "trismooth/pipeline/report/report_format.h"
 #include "trismooth/pipeline/report/text_report.h"
 #include "trismooth/pipeline/report/timings.h"
 
@@ -85,7 +86,7 @@ std::vector<std::filesystem::path> meshes_of_series(const PipelineOptions& optio
   return meshes;
 }
 
-/// The files that a run reads and writes, but for reports.
+/// The files that a run reads and writes, but for what it leaves beside the mesh.
 std::vector<std::filesystem::path> other_files(const PipelineOptions& options) {
   std::vector<std::filesystem::path> files{options.input};
   for (const auto& file : {options.written(), options.compared, options.fixed_ids}) {
@@ -100,24 +101,55 @@ std::vector<std::filesystem::path> other_files(const PipelineOptions& options) {
   return files;
 }
 
-/// A report must not overwrite what is read or written in the same run, under whatever name.
-void require_own_file(const std::filesystem::path& report, const PipelineOptions& options) {
+/// A file that a run leaves beside the mesh, and the option that asks for it.
+struct FileBeside {
+  std::string_view option;
+  std::filesystem::path path;
+};
+
+std::vector<FileBeside> files_beside(const MeshRunSettings& settings) {
+  std::vector<FileBeside> files;
+  for (const std::filesystem::path& report : settings.reports) {
+    files.push_back({"--report", report});
+  }
+  for (const std::filesystem::path& picture : settings.pictures.files) {
+    files.push_back({"--picture", picture});
+  }
+  return files;
+}
+
+std::invalid_argument refusal(const FileBeside& file, const std::string& reason) {
+  return std::invalid_argument(std::string(file.option) + " " + file.path.string() + ": " + reason);
+}
+
+/// None may overwrite what is read or written in the same run, under whatever name.
+void require_own_file(const FileBeside& file, const PipelineOptions& options) {
   std::error_code error;  // what does not exist is no other's file
   for (const std::filesystem::path& other : other_files(options)) {
-    if (std::filesystem::equivalent(report, other, error)) {
-      throw std::invalid_argument("--report " + report.string() + ": is the same file as " + other.string());
+    if (std::filesystem::equivalent(file.path, other, error)) {
+      throw refusal(file, "is the same file as " + other.string());
     }
   }
 }
 
-/// Nor may a report overwrite another one, which is not there yet.
-void require_each_once(std::span<const std::filesystem::path> reports) {
+/// Nor another one of them, which is not there yet.
+void require_each_once(std::span<const FileBeside> files) {
   std::set<std::filesystem::path> places;
-  for (const std::filesystem::path& report : reports) {
+  for (const FileBeside& file : files) {
     std::error_code error;  // where there is no such place, making the file says so
-    if (!places.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(report), error)).second && !error) {
-      throw std::invalid_argument("--report " + report.string() + ": is given twice");
+    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file.path), error);
+    if (!places.insert(place).second && !error) {
+      throw refusal(file, "is given twice");
     }
+  }
+}
+
+/// No rank has all of a mesh in pieces, nor of a file that ranks read by ranges.
+void require_whole_mesh_of_pictures(const MeshRunSettings& settings, bool is_in_pieces) {
+  const PipelineOptions& options = settings.pipeline;
+  if (!settings.pictures.files.empty() && !options.gather && (is_in_pieces || !options.written())) {
+    throw std::invalid_argument(
+        "--picture over MPI ranks takes the whole mesh, in the memory of rank 0: give --gather as well");
   }
 }
 
@@ -139,7 +171,7 @@ void warn_of_options_for_ranks(const MeshRunSettings& settings, bool over_ranks,
   }
 }
 
-/// Nor may the mesh of a step overwrite what steps are made of; that of a single one may, as elsewhere, its input.
+/// The mesh of a step may not overwrite what steps are made of; that of a single one may, as elsewhere, its input.
 void require_own_meshes(const PipelineOptions& options) {
   if (!options.deformation) {
     return;
@@ -171,6 +203,9 @@ void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
   if (!over_ranks || !is_in_pieces) {
     require_known_formats(options);
   }
+  if (over_ranks) {
+    require_whole_mesh_of_pictures(settings, is_in_pieces);
+  }
   if (const auto& target = options.written(); target && !is_standard_stream(*target)) {
     const OutputFile attempt(*target);
   }
@@ -181,10 +216,11 @@ void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
                       "is to have displacements of the boundary, and there is no such file; nothing has been written");
     }
   }
-  require_each_once(settings.reports);
-  for (const std::filesystem::path& report : settings.reports) {
-    require_own_file(report, options);
-    const OutputFile attempt(report);
+  const std::vector<FileBeside> beside = files_beside(settings);
+  require_each_once(beside);
+  for (const FileBeside& file : beside) {
+    require_own_file(file, options);
+    const OutputFile attempt(file.path);
   }
 }
 
@@ -195,6 +231,19 @@ std::size_t report_bytes(const PipelineResult& result) {
   constexpr std::size_t of_a_region = 8192;
   return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0) +
          result.regions_before.size() * of_a_region;
+}
+
+/// What is drawn is written beside the mesh, as a report is.
+PictureFile draw(const std::filesystem::path& path, const MeshRunSettings& settings, const PipelineResult& result) {
+  if (!result.picture) {
+    throw WriteError(path, "there is no picture of a mesh that no process has as a whole; --gather has rank 0 draw it");
+  }
+  PictureFileOptions options = settings.pictures.shown;
+  options.threads = settings.pipeline.smoothing.threads;
+  constexpr std::size_t of_all = std::size_t{64} << 20;
+  constexpr std::size_t of_an_element = 16;
+  require_host_memory(of_all + of_an_element * result.picture->elements.list().size());
+  return picture_file(path, *result.picture, options);
 }
 
 /// How a gate went; of several steps the one that is furthest from it tells.
@@ -211,7 +260,8 @@ GateOutcome outcome_of(const Gate& gate, const PipelineResult& result) {
                       : check_gate(gate, result.before, result.quadratic_before);
 }
 
-/// What a run leaves beside the mesh: its reports, and the table on standard output. It is all there, or nothing is.
+/// What a run leaves beside the mesh: its reports and pictures, and the table on standard output. It is all there, or
+/// nothing is.
 class RunOutputs {
  public:
   RunOutputs(const MeshRunSettings& settings, const CommandEnvironment& environment)
@@ -220,34 +270,34 @@ class RunOutputs {
         record_{environment.command, date_text(std::chrono::system_clock::now()), {}} {}
   RunOutputs(const RunOutputs&) = delete;
   RunOutputs& operator=(const RunOutputs&) = delete;
-  /// Where not everything came into its place the old reports are there again.
+  /// Where not everything came into its place the old files are there again.
   ~RunOutputs() {
-    for (WrittenAside& report : reports_) {
-      report.take_back();
+    for (WrittenAside& file : files_) {
+      file.take_back();
     }
   }
 
-  /// Writes the reports under other names, then prints the table. Throws WriteError.
+  /// Writes the files under other names, then prints the table. Throws WriteError.
   void prepare(const PipelineResult& result) {
     is_prepared_ = true;
     for (const Gate& gate : settings_.gates) {
       record_.gates.push_back(outcome_of(gate, result));
     }
-    write_reports(result);
+    write_files(result);
     if (settings_.verbosity != Verbosity::quiet) {
       print_table(result);
     }
   }
 
-  /// Puts the reports in their places.
+  /// Puts the files in their places.
   void place() {
-    for (WrittenAside& report : reports_) {
-      report.commit();
+    for (WrittenAside& file : files_) {
+      file.commit();
     }
   }
 
   /// The mesh is in its place, too.
-  void keep() { reports_.clear(); }
+  void keep() { files_.clear(); }
 
   bool is_prepared() const { return is_prepared_; }
   const std::vector<GateOutcome>& gates() const { return record_.gates; }
@@ -256,27 +306,42 @@ class RunOutputs {
 
  private:
   /// All that fail are told; the last one is thrown.
-  void write_reports(const PipelineResult& result) {
-    std::optional<std::pair<std::filesystem::path, std::string>> failure;
+  void write_files(const PipelineResult& result) {
     for (const std::filesystem::path& report : settings_.reports) {
-      std::string reason;
-      try {
+      write(report, [&] {
         require_host_memory(report_bytes(result));
-        reports_.push_back(write_report_aside(report, settings_.pipeline, result, record_));
-        continue;
-      } catch (const WriteError& error) {
-        reason = error.reason;
-      } catch (const std::bad_alloc&) {
-        reason = "cannot be written: not enough memory";
-      }
-      if (failure) {
-        print_error(environment_.err, WriteError(failure->first, failure->second).what());
-      }
-      failure.emplace(report, reason + without_mesh());
+        return write_report_aside(report, settings_.pipeline, result, record_);
+      });
     }
-    if (failure) {
-      throw WriteError(failure->first, failure->second);
+    for (const std::filesystem::path& picture : settings_.pictures.files) {
+      write(picture, [&] {
+        const PictureFile drawn = draw(picture, settings_, result);
+        if (!drawn.note.empty() && settings_.verbosity != Verbosity::quiet) {
+          print_note(environment_.err, picture.string() + ": " + drawn.note);
+        }
+        return write_report_text_aside(picture, drawn.bytes);
+      });
     }
+    if (failure_) {
+      throw WriteError(failure_->first, failure_->second);
+    }
+  }
+
+  template <class Write>
+  void write(const std::filesystem::path& path, const Write& write_aside) {
+    std::string reason;
+    try {
+      files_.push_back(write_aside());
+      return;
+    } catch (const WriteError& error) {
+      reason = error.reason;
+    } catch (const std::bad_alloc&) {
+      reason = "cannot be written: not enough memory";
+    }
+    if (failure_) {
+      print_error(environment_.err, WriteError(failure_->first, failure_->second).what());
+    }
+    failure_.emplace(path, reason + without_mesh());
   }
 
   /// What becomes of the mesh where these cannot be written.
@@ -295,6 +360,9 @@ class RunOutputs {
     for (const std::filesystem::path& report : settings_.reports) {
       text += labelled_line("report:", report.string());
     }
+    for (const std::filesystem::path& picture : settings_.pictures.files) {
+      text += labelled_line("picture:", picture.string());
+    }
     // A mesh on standard output has it for itself.
     const bool is_taken = options.written() && is_standard_stream(*options.written());
     try {
@@ -307,7 +375,8 @@ class RunOutputs {
   const MeshRunSettings& settings_;
   const CommandEnvironment& environment_;
   RunRecord record_;
-  std::vector<WrittenAside> reports_;
+  std::vector<WrittenAside> files_;
+  std::optional<std::pair<std::filesystem::path, std::string>> failure_;  ///< the last one, and why
   bool is_prepared_ = false;
   bool has_reader_ = true;  ///< the standard output
 };
@@ -371,7 +440,7 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   options.size_ratio =
       std::ranges::any_of(settings.gates, &needs_size_ratio) || (!environment.over_ranks && !settings.reports.empty());
 
-  options.picture = std::ranges::any_of(settings.reports, &shows_mesh);
+  options.picture = !settings.pictures.files.empty() || std::ranges::any_of(settings.reports, &shows_mesh);
 
   if (environment.follows) {
     environment.run(options);
@@ -380,6 +449,10 @@ ExitCode run_on_mesh(MeshRunSettings settings, const CommandEnvironment& environ
   try_outputs(settings, environment.over_ranks);
   if (verbosity != Verbosity::quiet) {
     warn_of_options_for_ranks(settings, environment.over_ranks, environment.err);
+    if (settings.pictures.files.empty() && !settings.pictures.effects.empty()) {
+      print_warning(environment.err, fmt::format("{} has no effect: it is for pictures, which --picture FILE asks for",
+                                                 fmt::join(settings.pictures.effects, ", ")));
+    }
   }
   RunOutputs outputs(settings, environment);
   const PipelineResult result = run_watched(options, verbosity, outputs, environment);

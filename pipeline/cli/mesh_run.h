@@ -9,16 +9,25 @@
 #include "trismooth/pipeline/cli/command_line.h"
 #include "trismooth/pipeline/cli/exit_code.h"
 #include "trismooth/pipeline/gates.h"
+#include "trismooth/pipeline/picture/picture_file.h"
 
 namespace trismooth {
 
 /// How much a command says.
 enum class Verbosity : std::uint8_t { quiet, normal, verbose };
 
+/// The pictures that a run draws.
+struct PictureSettings {
+  std::vector<std::filesystem::path> files;
+  PictureFileOptions shown;
+  std::vector<std::string_view> effects;  ///< options that say what is shown: nothing comes of them without files
+};
+
 /// What the commands that run the pipeline on a mesh (smooth, deform, quality and compare) are told.
 struct MeshRunSettings {
   PipelineOptions pipeline;
   std::vector<std::filesystem::path> reports;
+  PictureSettings pictures;
   std::vector<Gate> gates;
   Verbosity verbosity = Verbosity::normal;
 };

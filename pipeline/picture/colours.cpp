@@ -17,12 +17,14 @@ Colour colour_at(std::span<const ColourStop> stops, double place) {
   }
   const ColourStop& low = stops[next - 1];
   const ColourStop& high = stops[next];
-  const double part = place > low.at ? std::min((place - low.at) / (high.at - low.at), 1.0) : 0.0;
-  const auto mixed = [part](std::uint8_t from, std::uint8_t to) {
+  return mixed(low.colour, high.colour, place > low.at ? std::min((place - low.at) / (high.at - low.at), 1.0) : 0.0);
+}
+
+Colour mixed(Colour below, Colour above, double part) {
+  const auto mix = [part](std::uint8_t from, std::uint8_t to) {
     return static_cast<std::uint8_t>(std::lround(from + part * (static_cast<double>(to) - from)));
   };
-  return {mixed(low.colour.red, high.colour.red), mixed(low.colour.green, high.colour.green),
-          mixed(low.colour.blue, high.colour.blue)};
+  return {mix(below.red, above.red), mix(below.green, above.green), mix(below.blue, above.blue)};
 }
 
 std::string css_colour(Colour colour) {

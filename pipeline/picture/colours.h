@@ -38,6 +38,8 @@ inline constexpr Colour inverted_colour{34, 0, 51};
 inline constexpr Colour edge_colour{91, 103, 112};
 /// Of boundaries and interfaces, and of letters.
 inline constexpr Colour line_colour{17, 17, 17};
+/// Around pictures.
+inline constexpr Colour frame_colour{187, 187, 187};
 /// From little to much, of what is neither good nor bad: sizes, distances. (After cividis.)
 inline constexpr std::array<ColourStop, 5> amount_colours{{{0.0, {0, 48, 111}},
                                                            {0.25, {75, 92, 124}},
@@ -56,6 +58,9 @@ inline constexpr std::array<Colour, 8> region_colours{{{86, 180, 233},
 
 /// The colour at a place of a scale; that of an end outside of it, the first of NaN.
 Colour colour_at(std::span<const ColourStop> stops, double place);
+
+/// A colour with `part` of another one above it, from 0 to 1.
+Colour mixed(Colour below, Colour above, double part);
 
 /// "#b2182b"
 std::string css_colour(Colour colour);

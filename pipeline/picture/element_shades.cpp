@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "trismooth/base/text/suggestion.h"
@@ -20,7 +22,8 @@ constexpr std::string_view moved_name = "moved";
 constexpr int shade_steps = ElementShades::last - ElementShades::first;
 
 template <class Points>
-constexpr ElementKind kind_of = std::tuple_size_v<Points> == 3 ? ElementKind::triangle : ElementKind::quadrilateral;
+constexpr ElementKind kind_of =
+    std::tuple_size_v<std::remove_cvref_t<Points>> == 3 ? ElementKind::triangle : ElementKind::quadrilateral;
 
 double evaluate(Metric metric, const CornerPoints& points) {
   return evaluate(metric, points[0], points[1], points[2]);
@@ -36,7 +39,7 @@ bool has_metric(Metric metric, ElementKind kind) {
 /// Which shade has the place of a scale from the worst to the best. (Also of what is no number.)
 std::uint8_t shade_at(double place) {
   const double from_best = place > 0 ? 1 - std::min(place, 1.0) : 1.0;
-  return static_cast<std::uint8_t>(ElementShades::first + static_cast<int>(std::floor(from_best * shade_steps + 0.5)));
+  return static_cast<std::uint8_t>(ElementShades::first + static_cast<int>(from_best * shade_steps + 0.5));
 }
 
 }  // namespace
@@ -80,6 +83,7 @@ ElementShades::ElementShades(const MeshPicture& picture, PictureValue value, boo
     : picture_(picture),
       elements_(picture.elements.list()),
       value_(value),
+      is_before_(before),
       points_(before ? picture.before : picture.now()),
       reversed_(before ? picture.reversed_before : picture.reversed_now()) {
   for (const auto corners : elements_) {
@@ -152,6 +156,12 @@ double ElementShades::amount_place(double value) const {
 }
 
 template <class Element>
+auto ElementShades::points_of_element(std::size_t number, const Element& corners) const {
+  const bool is_reversed = !reversed_.empty() && reversed_[number] != 0;
+  return points_of(canonical_corners(corners, is_reversed), [this](std::int32_t v) { return frame_.enter(point(v)); });
+}
+
+template <class Element>
 double ElementShades::value_of(std::size_t number, const Element& corners) const {
   if (value_.kind == ShownKind::region) {
     return picture_.regions.empty() ? 0 : picture_.regions[number];
@@ -165,9 +175,7 @@ double ElementShades::value_of(std::size_t number, const Element& corners) const
     }
     return std::sqrt(longest) * unit_;
   }
-  const bool is_reversed = !reversed_.empty() && reversed_[number] != 0;
-  const auto points =
-      points_of(canonical_corners(corners, is_reversed), [this](std::int32_t v) { return frame_.enter(point(v)); });
+  const auto points = points_of_element(number, corners);
   const double value = evaluate(value_.metric, points);
   return value_.metric == Metric::area ? value * unit_ * unit_ : value;
 }
@@ -181,9 +189,7 @@ std::uint8_t ElementShades::shade_of(std::size_t number, const Element& corners)
   if (value_.kind == ShownKind::moved) {
     return static_cast<std::uint8_t>(last + first - shade_at(amount_place(value_of(number, corners))));
   }
-  const bool is_reversed = !reversed_.empty() && reversed_[number] != 0;
-  const auto points =
-      points_of(canonical_corners(corners, is_reversed), [this](std::int32_t v) { return frame_.enter(point(v)); });
+  const auto points = points_of_element(number, corners);
   if (shape_quotient(points) < 0) {
     return inverted;
   }
@@ -191,12 +197,28 @@ std::uint8_t ElementShades::shade_of(std::size_t number, const Element& corners)
     return shade_at(amount_place(evaluate(value_.metric, points) * unit_ * unit_));
   }
   const auto& scale = scales_[static_cast<std::size_t>(kind_of<decltype(points)>)];
-  return scale ? shade_at(scale->place_of(evaluate(value_.metric, points))) : lacking;
+  const double value = value_.metric == Metric::shape ? shape(points) : evaluate(value_.metric, points);
+  return scale ? shade_at(scale->place_of(value)) : lacking;
 }
 
 double ElementShades::value(std::size_t element) const {
   return elements_.visit([&]<class Corners>(std::span<const Corners> elements) {
     return with_kind(elements[element], [&](const auto& corners) { return value_of(element, corners); });
+  });
+}
+
+double ElementShades::place(std::size_t element) const {
+  return elements_.visit([&]<class Corners>(std::span<const Corners> elements) {
+    return with_kind(elements[element], [&](const auto& corners) {
+      const auto points = points_of_element(element, corners);
+      const auto& scale = scales_[static_cast<std::size_t>(kind_of<decltype(points)>)];
+      if (!scale) {
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+      const double place = scale->place_of(evaluate(value_.metric, points));
+      constexpr double below_all = 2;  // of a metric that is the same for both orientations
+      return place >= 0 && shape_quotient(points) < 0 ? place - below_all : place;
+    });
   });
 }
 

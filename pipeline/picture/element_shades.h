@@ -58,6 +58,13 @@ class ElementShades {
   const ElementList& elements() const { return elements_; }
   /// All of the elements, in the file's unit.
   const Box& box() const { return box_; }
+  /// Whether it is the mesh as it was before.
+  bool is_before() const { return is_before_; }
+  /// Of elements of that kind; null where they have none of the metric, or it is neither good nor bad.
+  const QualityScale* scale(ElementKind kind) const {
+    const auto& scale = scales_[static_cast<std::size_t>(kind)];
+    return scale ? &*scale : nullptr;
+  }
   /// Where amounts are shown.
   const AmountRange& range() const { return range_; }
   /// Whether some of the elements are of that kind.
@@ -67,6 +74,9 @@ class ElementShades {
   Point2<double> point(std::int32_t vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
   /// What the element has of the metric, of the distance, or the number of its region; NaN where it has none.
   double value(std::size_t element) const;
+  /// How good the element is on the scale of a metric that is a quality: 1 is ideal, inverted elements are below 0; NaN
+  /// where it has none.
+  double place(std::size_t element) const;
   /// Between `lacking` and `inverted`. Complexity: constant.
   std::uint8_t shade(std::size_t element) const;
   /// White where there is nothing.
@@ -79,11 +89,14 @@ class ElementShades {
   double value_of(std::size_t number, const Element& corners) const;
   template <class Element>
   std::uint8_t shade_of(std::size_t number, const Element& corners) const;
+  template <class Element>
+  auto points_of_element(std::size_t number, const Element& corners) const;
   double amount_place(double value) const;
 
   const MeshPicture& picture_;
   ElementList elements_;
   PictureValue value_;
+  bool is_before_;
   std::span<const Point2<double>> points_;
   std::span<const std::uint8_t> reversed_;
   Box box_;

@@ -25,10 +25,10 @@ constexpr double full_edge = 12;
 constexpr double edge_strength = 0.75;
 
 /// Of several threads that write, the largest value is left, whoever comes first.
-void raise(std::uint8_t& byte, std::uint8_t value) {
+inline void raise(std::uint8_t& byte, std::uint8_t value) {
   const std::atomic_ref shared(byte);
-  for (std::uint8_t found = shared.load(std::memory_order_relaxed);
-       value > found && !shared.compare_exchange_weak(found, value, std::memory_order_relaxed);) {
+  std::uint8_t found = shared.load(std::memory_order_relaxed);
+  while (value > found && !shared.compare_exchange_weak(found, value, std::memory_order_relaxed)) {
   }
 }
 
@@ -120,10 +120,12 @@ class Canvas {
   }
   /// The first pixel whose middle is not before that place.
   static int pixel_from(double place, int count) {
-    return static_cast<int>(std::clamp(std::ceil(place - 0.5), 0.0, static_cast<double>(count)));
+    const double middle = std::clamp(place - 0.5, 0.0, static_cast<double>(count));
+    const int pixel = static_cast<int>(middle);
+    return pixel < middle ? pixel + 1 : pixel;
   }
   static int within(double place, int count) {
-    return static_cast<int>(std::clamp(std::floor(place), 0.0, static_cast<double>(count - 1)));
+    return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
   }
 
   static std::size_t crossings_of(std::span<const Point2<double>> corners, double y, std::array<double, 4>& crossings) {
@@ -145,6 +147,12 @@ class Canvas {
 
   /// Leaves the part that is on the canvas, or no further from it than `room`. False where there is none.
   bool clip(Point2<double>& from, Point2<double>& to, double room) const {
+    const auto is_inside = [&](Point2<double> place) {
+      return place.x >= 0 && place.x <= width_ && place.y >= 0 && place.y <= height_;
+    };
+    if (is_inside(from) && is_inside(to)) {
+      return true;
+    }
     double first = 0;
     double second = 1;
     narrow(from.x, to.x, -room, width_ + room, first, second);
@@ -185,16 +193,16 @@ class ElementPainter {
       box.add(points[i]);
     }
     if (overlap(box, screen_)) {
-      paint(element, std::span<const Point2<double>>(points).first(count));
+      const double extent = (box.high.x - box.low.x) + (box.high.y - box.low.y);
+      paint(element, std::span<const Point2<double>>(points).first(count), lines_ && extent > faint_edge);
     }
   }
 
  private:
-  void paint(std::size_t element, std::span<const Point2<double>> points) {
+  void paint(std::size_t element, std::span<const Point2<double>> points, bool may_have_edges) {
     const std::uint8_t shade = shades_.shade(element);
     fills_.fill(points, shade);
     double area = 0;  // twice
-    double around = 0;
     double longest = -1;
     std::pair<std::size_t, std::size_t> ends;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -206,16 +214,28 @@ class ElementPainter {
           ends = {i, j};
         }
       }
-      around += std::sqrt(squared_length(points[next] - points[i]));
     }
-    if (std::abs(area) < std::sqrt(longest)) {  // narrower than a pixel
+    if (area * area < longest) {  // narrower than a pixel
       fills_.mark_thin(points[ends.first], points[ends.second], shade);
     }
+    if (may_have_edges) {
+      draw_edges(points);
+    }
+  }
+
+  void draw_edges(std::span<const Point2<double>> points) {
+    double around = 0;
+    Point2<double> from = points.back();
+    for (const Point2<double> to : points) {
+      around += std::sqrt(squared_length(to - from));
+      from = to;
+    }
     const double mean_edge = around / static_cast<double>(points.size());
-    if (lines_ && mean_edge > faint_edge) {
-      const double strength = std::min((mean_edge - faint_edge) / (full_edge - faint_edge), 1.0);
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        edges_.stroke(points[i], points[i + 1 < points.size() ? i + 1 : 0], edge_width, strength);
+    const double strength = std::min((mean_edge - faint_edge) / (full_edge - faint_edge), 1.0);
+    if (strength > 0) {
+      for (const Point2<double> to : points) {
+        edges_.stroke(from, to, edge_width, strength);
+        from = to;
       }
     }
   }
@@ -227,15 +247,6 @@ class ElementPainter {
   Canvas& fills_;
   Canvas& edges_;
 };
-
-std::uint8_t mixed(std::uint8_t below, std::uint8_t above, double part) {
-  return static_cast<std::uint8_t>(std::lround(below + part * (static_cast<double>(above) - below)));
-}
-
-Colour mixed(Colour below, Colour above, double part) {
-  return {mixed(below.red, above.red, part), mixed(below.green, above.green, part),
-          mixed(below.blue, above.blue, part)};
-}
 
 }  // namespace
 

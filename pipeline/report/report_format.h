@@ -22,9 +22,10 @@ struct ReportFormat {
 };
 
 /// The function of the format whose extension the path has, in upper or lower case. Throws std::invalid_argument, which
-/// names all that there are.
+/// names all that there are, for `what` is written.
 template <class Writer>
-Writer writer_for(const std::filesystem::path& path, std::span<const ReportFormat<Writer>> formats) {
+Writer writer_for(const std::filesystem::path& path, std::span<const ReportFormat<Writer>> formats,
+                  std::string_view what = "report") {
   const std::string extension = lower_case(path.extension().string());
   std::string known;
   for (std::size_t i = 0; i < formats.size(); ++i) {
@@ -33,7 +34,8 @@ Writer writer_for(const std::filesystem::path& path, std::span<const ReportForma
     }
     known.append(i == 0 ? "" : i + 1 == formats.size() ? " or " : ", ").append(formats[i].extension);
   }
-  throw std::invalid_argument("'" + path.string() + "' is no report file; its name must end in " + known);
+  throw std::invalid_argument("'" + path.string() + "' is no " + std::string(what) + " file; its name must end in " +
+                              known);
 }
 
 /// Writes `text` to a file, which takes its place when it is committed. Throws WriteError.
