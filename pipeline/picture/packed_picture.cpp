@@ -23,7 +23,7 @@ namespace trismooth {
 
 namespace {
 
-using Numbers = BulkVector<std::uint32_t>;
+using PackedNumbers = BulkVector<std::uint32_t>;
 
 constexpr std::int64_t packing_grain = 16384;
 constexpr int curve_order = 15;
@@ -75,7 +75,7 @@ class Packer {
  private:
   struct Pending {
     std::string name;
-    Numbers numbers;
+    PackedNumbers numbers;
     std::size_t count = 0;
     int planes = 0;
     std::string deflated;
@@ -196,7 +196,7 @@ class Packer {
     grid_.exponent = extent_exponent_ - bits;
   }
 
-  void add(std::string name, Numbers numbers) {
+  void add(std::string name, PackedNumbers numbers) {
     if (!numbers.empty()) {
       const std::size_t count = numbers.size();
       pending_.push_back({std::move(name), std::move(numbers), count, 0, {}});
@@ -206,7 +206,7 @@ class Packer {
   /// number(i) for each i of [0, count).
   template <class Number>
   void add(std::string name, std::size_t count, const Number& number) {
-    Numbers numbers(count);
+    PackedNumbers numbers(count);
     workers_.for_blocks(static_cast<std::int64_t>(count), packing_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
         numbers[i] = number(static_cast<std::size_t>(i));
@@ -291,7 +291,7 @@ class Packer {
       add("held", vertices_.size(), [&](std::size_t i) { return picture_.held[vertices_[i]]; });
     }
     const auto add_lines = [this](const char* name, const auto& edges) {
-      Numbers ends;
+      PackedNumbers ends;
       for (const auto& edge : edges) {
         if (new_of_[edge[0]] >= 0 && new_of_[edge[1]] >= 0) {
           ends.push_back(static_cast<std::uint32_t>(new_of_[edge[0]]));
@@ -303,7 +303,7 @@ class Packer {
     add_lines("boundary", lines_.boundary);
     add_lines("interface", lines_.interfaces);
     if (has_moved() && !picture_.reversed_before.empty()) {
-      Numbers turned;
+      PackedNumbers turned;
       for (std::size_t i = 0; i < order_.size(); ++i) {
         if (picture_.reversed_before[order_[i]] != picture_.reversed_after[order_[i]]) {
           turned.push_back(static_cast<std::uint32_t>(i));
@@ -334,7 +334,7 @@ class Packer {
           }
         });
     std::ranges::sort(places);
-    Numbers halves;
+    PackedNumbers halves;
     for (const std::uint32_t place : places) {
       for (const Places* const state : {&before_, &now_}) {
         if (state == &now_ && !has_moved()) {
@@ -349,7 +349,7 @@ class Packer {
         }
       }
     }
-    add("exact", Numbers(places.begin(), places.end()));
+    add("exact", PackedNumbers(places.begin(), places.end()));
     add("exactplaces", std::move(halves));
   }
 

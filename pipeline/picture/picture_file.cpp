@@ -48,7 +48,7 @@ PictureFile png_file(const Drawing& drawing) {
 
 using PictureWriter = PictureFile (*)(const Drawing&);
 
-PictureWriter writer_of(const std::filesystem::path& path) {
+PictureWriter picture_writer_of(const std::filesystem::path& path) {
   static constexpr std::array<ReportFormat<PictureWriter>, 2> formats{{{".svg", &svg_file}, {".png", &png_file}}};
   return writer_for<PictureWriter>(path, formats, "picture");
 }
@@ -76,7 +76,7 @@ std::string text_of(const Box& box) {
 }  // namespace
 
 void require_picture_extension(const std::filesystem::path& path) {
-  writer_of(path);
+  picture_writer_of(path);
 }
 
 Box picture_window(std::string_view text) {
@@ -101,7 +101,7 @@ Box picture_window(std::string_view text) {
 
 PictureFile picture_file(const std::filesystem::path& path, const MeshPicture& picture,
                          const PictureFileOptions& options) {
-  const PictureWriter write = writer_of(path);
+  const PictureWriter write = picture_writer_of(path);
   const ElementShades shades(picture, options.value);
   const MeshLines lines = mesh_lines(picture);
   SheetOptions of_sheet{std::nullopt, options.worst};

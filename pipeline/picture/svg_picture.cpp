@@ -24,7 +24,7 @@ namespace {
 
 /// Places in panels are whole numbers of this part of a pixel.
 constexpr int units = 10;
-constexpr double line_width = 2;
+constexpr double svg_line_width = 2;
 /// Of the edges of elements, as a part of the mean edge, and at most, in pixels.
 constexpr double edge_part = 0.05;
 constexpr double most_edge = 0.6;
@@ -237,7 +237,7 @@ class PanelText {
                ? ""
                : fmt::format(
                      "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" d=\"{}\"/>\n",
-                     css_colour(line_colour), line_width * units, path.text());
+                     css_colour(line_colour), svg_line_width * units, path.text());
   }
 
   const ElementShades& shades_;
