@@ -14,10 +14,23 @@ namespace {
 
 constexpr std::int64_t marking_grain = 16384;
 
-/// The squares around these elements.
+bool is_inside(const Box& box, Point2<double> p) {
+  return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
+}
+
+/// A square around the box: its longer side, so often, on each side of it.
+Box square_around(const Box& box, double reach) {
+  const double wide = reach * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  return {{box.low.x - wide, box.low.y - wide}, {box.high.x + wide, box.high.y + wide}};
+}
+
+/// The squares around these elements, none with many vertices: long elements may be among far smaller ones.
 std::vector<Box> squares_around(const MeshPicture& picture, std::span<const std::int64_t> numbers,
                                 std::span<const Point2<double>> points) {
-  constexpr double reach = 12;
+  constexpr double widest = 12;
+  constexpr double narrowest = 0.2;
+  constexpr std::size_t sample = 16;  // of the vertices that many are counted one
+  constexpr std::int64_t most = 4000 / sample;
   const ElementList elements = picture.elements.list();
   std::vector<Box> squares;
   for (const std::int64_t number : numbers) {
@@ -29,8 +42,19 @@ std::vector<Box> squares_around(const MeshPicture& picture, std::span<const std:
     for (const std::int32_t v : elements[place]) {
       box.add(points[v]);
     }
-    const double wide = reach * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-    squares.push_back({{box.low.x - wide, box.low.y - wide}, {box.high.x + wide, box.high.y + wide}});
+    double reach = widest;
+    const auto is_crowded = [&] {
+      const Box square = square_around(box, reach);
+      std::int64_t count = 0;
+      for (std::size_t v = 0; v < points.size() && count <= most; v += sample) {
+        count += is_inside(square, points[v]) ? 1 : 0;
+      }
+      return count > most;
+    };
+    while (reach > narrowest && is_crowded()) {
+      reach /= 2;
+    }
+    squares.push_back(square_around(box, reach));
   }
   return squares;
 }
@@ -41,7 +65,7 @@ void mark_inside(std::span<const Point2<double>> points, const std::vector<Box>&
     for (std::int64_t v = begin; v < end; ++v) {
       const Point2<double> p = points[v];
       for (const Box& square : squares) {
-        if (p.x >= square.low.x && p.x <= square.high.x && p.y >= square.low.y && p.y <= square.high.y) {
+        if (is_inside(square, p)) {
           marks[v] = 1;
         }
       }

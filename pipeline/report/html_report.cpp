@@ -499,6 +499,10 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   if (result.picture && result.before.elements() > 0) {
     Workers workers(options.smoothing.threads);
     html += html_section("The mesh", mesh_view_html(*result.picture, workers));
+  } else if (options.picture && result.before.elements() > 0) {
+    html += html_section("The mesh",
+                         "<p>Of a mesh in pieces no picture is kept; <code>trismooth compare</code> of the input with "
+                         "the output makes a report that shows it.</p>\n");
   }
   if (!record.gates.empty()) {
     html += html_section("Gates", gates_table(record.gates));

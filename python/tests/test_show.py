@@ -52,8 +52,8 @@ def test_the_page_has_the_mesh_before_and_after(result):
     assert told["vertices"] == len(result.points)
     assert told["moved"] is True
     # The worst elements are those of the quality of the same points.
-    assert told["worst"]["before"] == [worst.element for worst in trismooth.quality(result.input_points, result.triangles).worst]
-    assert told["worst"]["after"] == [worst.element for worst in trismooth.quality(result.points, result.triangles).worst]
+    assert told["worst"]["before"] == [worst.element for worst in trismooth.quality(result.input_points, result.triangles).summary.worst]
+    assert told["worst"]["after"] == [worst.element for worst in trismooth.quality(result.points, result.triangles).summary.worst]
 
 
 def test_quadrilaterals_and_triangles_are_told_apart():

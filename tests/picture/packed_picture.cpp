@@ -110,10 +110,10 @@ std::map<std::int64_t, Shown> elements_of(const PackedPicture& packed, bool has_
   }
   auto exact = [&, at = std::size_t{0}](std::vector<Point2<double>>& points) mutable {
     for (Point2<double>& point : points) {
-      std::array<double, 2> numbers{};
-      std::memcpy(numbers.data(), s["exactplaces"].data() + at, sizeof numbers);
+      std::array<double, 2> halves{};
+      std::memcpy(halves.data(), s["exactplaces"].data() + at, sizeof halves);
       at += 4;
-      point = place({numbers[0], numbers[1]});
+      point = place({halves[0], halves[1]});
     }
   };
   for (const std::uint32_t e : s["exact"]) {
