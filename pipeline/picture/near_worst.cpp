@@ -18,47 +18,6 @@ bool is_inside(const Box& box, Point2<double> p) {
   return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
 }
 
-/// A square around the box: its longer side, so often, on each side of it.
-Box square_around(const Box& box, double reach) {
-  const double wide = reach * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  return {{box.low.x - wide, box.low.y - wide}, {box.high.x + wide, box.high.y + wide}};
-}
-
-/// The squares around these elements, none with many vertices: long elements may be among far smaller ones.
-std::vector<Box> squares_around(const MeshPicture& picture, std::span<const std::int64_t> numbers,
-                                std::span<const Point2<double>> points) {
-  constexpr double widest = 12;
-  constexpr double narrowest = 0.2;
-  constexpr std::size_t sample = 16;  // of the vertices that many are counted one
-  constexpr std::int64_t most = 4000 / sample;
-  const ElementList elements = picture.elements.list();
-  std::vector<Box> squares;
-  for (const std::int64_t number : numbers) {
-    const auto place =
-        picture.numbers.empty()
-            ? static_cast<std::size_t>(number)
-            : static_cast<std::size_t>(std::ranges::lower_bound(picture.numbers, number) - picture.numbers.begin());
-    Box box;
-    for (const std::int32_t v : elements[place]) {
-      box.add(points[v]);
-    }
-    double reach = widest;
-    const auto is_crowded = [&] {
-      const Box square = square_around(box, reach);
-      std::int64_t count = 0;
-      for (std::size_t v = 0; v < points.size() && count <= most; v += sample) {
-        count += is_inside(square, points[v]) ? 1 : 0;
-      }
-      return count > most;
-    };
-    while (reach > narrowest && is_crowded()) {
-      reach /= 2;
-    }
-    squares.push_back(square_around(box, reach));
-  }
-  return squares;
-}
-
 void mark_inside(std::span<const Point2<double>> points, const std::vector<Box>& squares,
                  std::vector<std::uint8_t>& marks, Workers& workers) {
   workers.for_blocks(std::ssize(points), marking_grain, [&](std::int64_t begin, std::int64_t end) {
@@ -73,13 +32,51 @@ void mark_inside(std::span<const Point2<double>> points, const std::vector<Box>&
   });
 }
 
+/// Marks the corners of these elements and the vertices in a square around each: fewer than thousands, as elements may
+/// be as long as the mesh is wide.
+void mark_around(const MeshPicture& picture, std::span<const std::int64_t> numbers,
+                 std::span<const Point2<double>> points, std::vector<std::uint8_t>& marks, Workers& workers) {
+  constexpr double reach = 12;
+  constexpr std::size_t sample = 16;  // of the vertices that many are counted one
+  constexpr std::int64_t most = 4000 / sample;
+  const ElementList elements = picture.elements.list();
+  std::vector<Box> squares;
+  for (const std::int64_t number : numbers) {
+    const auto place =
+        picture.numbers.empty()
+            ? static_cast<std::size_t>(number)
+            : static_cast<std::size_t>(std::ranges::lower_bound(picture.numbers, number) - picture.numbers.begin());
+    Box box;
+    for (const std::int32_t v : elements[place]) {
+      marks[v] = 1;
+      box.add(points[v]);
+    }
+    const Point2<double> centre{box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2};
+    double wide = reach * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+    const auto square = [&] { return Box{{centre.x - wide, centre.y - wide}, {centre.x + wide, centre.y + wide}}; };
+    const auto is_crowded = [&] {
+      const Box around = square();
+      std::int64_t count = 0;
+      for (std::size_t v = 0; v < points.size() && count <= most; v += sample) {
+        count += is_inside(around, points[v]) ? 1 : 0;
+      }
+      return count > most;
+    };
+    for (int halvings = 0; halvings < 40 && is_crowded(); ++halvings) {
+      wide /= 2;
+    }
+    squares.push_back(square());
+  }
+  mark_inside(points, squares, marks, workers);
+}
+
 }  // namespace
 
 std::vector<std::int32_t> elements_near_worst(const MeshPicture& picture, Workers& workers) {
   std::vector<std::uint8_t> marks(picture.before.size(), 0);
-  mark_inside(picture.before, squares_around(picture, picture.worst_before, picture.before), marks, workers);
+  mark_around(picture, picture.worst_before, picture.before, marks, workers);
   if (!picture.after.empty()) {
-    mark_inside(picture.after, squares_around(picture, picture.worst_after, picture.after), marks, workers);
+    mark_around(picture, picture.worst_after, picture.after, marks, workers);
   }
   std::vector<std::int32_t> near;
   const ElementList elements = picture.elements.list();

@@ -316,7 +316,9 @@ class Packer {
   /// The elements that are seen otherwise in whole steps: their places in the new order, ascending, and the exact steps
   /// of their corners before and now, as the two halves of doubles.
   void add_exact() {
-    constexpr double seen = 0.005;  // of shape
+    // Of shape: what is seen as a colour, and of flat elements as a number.
+    constexpr double seen = 0.005;
+    constexpr double part_seen = 0.05;
     const auto differs = [&](std::span<const std::int32_t> listed, const Places& places) {
       const auto shape_of = [listed](const BulkVector<Point2<double>>& p) {
         return listed.size() == 3 ? shape(p[listed[0]], p[listed[1]], p[listed[2]])
@@ -324,7 +326,8 @@ class Packer {
       };
       const double is = shape_of(places.exact);
       const double shown = shape_of(places.whole);
-      return !(std::abs(is - shown) <= seen) || (is > 0) != (shown > 0) || (is < 0) != (shown < 0);
+      return !(std::abs(is - shown) <= std::min(seen, part_seen * std::abs(is))) || (is > 0) != (shown > 0) ||
+             (is < 0) != (shown < 0);
     };
     std::vector<std::uint32_t> places = joined_lists<std::uint32_t>(
         std::ssize(order_), packing_grain, workers_, [&](std::int64_t i, std::vector<std::uint32_t>& found) {

@@ -768,7 +768,7 @@
     }
     info.append(title, textOf('p', facts.filter(Boolean).join('; ') + '.'), table);
     if (!mesh.exact.has(e)) {
-      info.append(textOf('p', 'Values of this picture, whose coordinates are rounded: shape is right to 0.005. The tables of the report are exact.'));
+      info.append(textOf('p', 'Values of this picture, whose coordinates are rounded: shape is right to 0.005 and to 5 %. The tables of the report are exact.'));
       info.lastChild.className = 'soft';
     }
   }
