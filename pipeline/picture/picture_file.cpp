@@ -46,11 +46,11 @@ PictureFile png_file(const Drawing& drawing) {
   return {png_text(draw_sheet(drawing.shades, drawing.lines, drawing.sheet, drawing.threads)), {}};
 }
 
-using PictureWriter = PictureFile (*)(const Drawing&);
+using Drawer = PictureFile (*)(const Drawing&);
 
-PictureWriter picture_writer_of(const std::filesystem::path& path) {
-  static constexpr std::array<ReportFormat<PictureWriter>, 2> formats{{{".svg", &svg_file}, {".png", &png_file}}};
-  return writer_for<PictureWriter>(path, formats, "picture");
+Drawer drawer_of(const std::filesystem::path& path) {
+  static constexpr std::array<ReportFormat<Drawer>, 2> formats{{{".svg", &svg_file}, {".png", &png_file}}};
+  return writer_for<Drawer>(path, formats, "picture");
 }
 
 /// A box as people name it, where the plane has it: there and back.
@@ -76,7 +76,7 @@ std::string text_of(const Box& box) {
 }  // namespace
 
 void require_picture_extension(const std::filesystem::path& path) {
-  picture_writer_of(path);
+  drawer_of(path);
 }
 
 Box picture_window(std::string_view text) {
@@ -101,14 +101,14 @@ Box picture_window(std::string_view text) {
 
 PictureFile picture_file(const std::filesystem::path& path, const MeshPicture& picture,
                          const PictureFileOptions& options) {
-  const PictureWriter write = picture_writer_of(path);
+  const Drawer draw = drawer_of(path);
   const ElementShades shades(picture, options.value);
   const MeshLines lines = mesh_lines(picture);
   SheetOptions of_sheet{std::nullopt, options.worst};
   if (options.window) {
     of_sheet.window = box_by(picture.place_shown, *options.window);
   }
-  PictureFile file = write({shades, lines, picture_sheet(shades, of_sheet), options.threads});
+  PictureFile file = draw({shades, lines, picture_sheet(shades, of_sheet), options.threads});
   if (of_sheet.window && !has_elements(shades, *of_sheet.window)) {
     file.note = "it is empty: nothing of the mesh is in the window " + text_of(*options.window) + "; the mesh spans " +
                 text_of(box_by(picture.shown_place, shades.box()));

@@ -18,19 +18,19 @@ namespace trismooth {
 
 namespace {
 
-constexpr int pad = 8;
+constexpr int sheet_pad = 8;
 constexpr int most_width = 1200;
 constexpr int most_height = 900;
 constexpr int least_side = 40;
-constexpr int least_sheet = 560;  // room for the legend
-constexpr int line = 20;          // of text
-constexpr int bar_width = 360;
-constexpr int bar_height = 14;
-constexpr int close_up = 288;
-constexpr int gap = 16;
+constexpr int least_sheet_width = 560;  // room for its legend
+constexpr int line_height = 20;         // of text
+constexpr int legend_width = 360;
+constexpr int legend_height = 14;
+constexpr int close_up_side = 288;
+constexpr int sheet_gap = 16;
 constexpr double mark_radius = 9;
 
-std::string digits(double value) {
+std::string few_digits(double value) {
   constexpr int few = 4;
   return general_digits(value, few);
 }
@@ -62,13 +62,13 @@ std::string label_at(const ElementShades& shades, double place) {
   const PictureValue value = shades.value_shown();
   if (!value.is_quality()) {
     const AmountRange& range = shades.range();
-    return digits(range.is_logarithmic && range.low > 0 ? range.low * std::pow(range.high / range.low, place)
-                                                        : range.low + place * (range.high - range.low));
+    return few_digits(range.is_logarithmic && range.low > 0 ? range.low * std::pow(range.high / range.low, place)
+                                                            : range.low + place * (range.high - range.low));
   }
   std::string label;
   for (const ElementKind kind : {ElementKind::triangle, ElementKind::quadrilateral}) {
     if (const auto* const scale = shades.scale(kind); scale != nullptr && shades.has(kind)) {
-      const std::string text = digits(value_at(*scale, place));
+      const std::string text = few_digits(value_at(*scale, place));
       label += label.empty() ? text : label == text ? "" : " / " + text;
     }
   }
@@ -108,26 +108,26 @@ std::string legend_title(const ElementShades& shades) {
 /// Adds the legend from `top` on. Returns where it ends.
 double add_legend(const ElementShades& shades, double top, PictureSheet& sheet) {
   const PictureValue value = shades.value_shown();
-  sheet.texts.push_back({{pad, top + bar_height}, TextAnchor::start, legend_title(shades)});
-  top += line;
-  double x = pad;
+  sheet.texts.push_back({{sheet_pad, top + legend_height}, TextAnchor::start, legend_title(shades)});
+  top += line_height;
+  double x = sheet_pad;
   const auto add_swatch = [&](Colour colour, std::string text) {
-    sheet.swatches.push_back({{x, top}, bar_height, bar_height, colour, {}});
-    sheet.texts.push_back({{x + line, top + bar_height - 2}, TextAnchor::start, std::move(text)});
+    sheet.swatches.push_back({{x, top}, legend_height, legend_height, colour, {}});
+    sheet.texts.push_back({{x + line_height, top + legend_height - 2}, TextAnchor::start, std::move(text)});
   };
   if (value.kind == ShownKind::region) {
     constexpr std::size_t in_a_row = 4;
     const auto& names = shades.picture().region_names;
     for (std::size_t i = 0; i < std::min(names.size(), region_colours.size()); ++i) {
-      top += i > 0 && i % in_a_row == 0 ? line : 0;
-      x = pad + static_cast<double>(i % in_a_row) * (least_sheet - 2.0 * pad) / in_a_row;
+      top += i > 0 && i % in_a_row == 0 ? line_height : 0;
+      x = sheet_pad + static_cast<double>(i % in_a_row) * (least_sheet_width - 2.0 * sheet_pad) / in_a_row;
       add_swatch(region_colours[i], shortened(names[i]));
     }
-    return top + line;
+    return top + line_height;
   }
   sheet.swatches.push_back({{x, top},
-                            bar_width,
-                            bar_height,
+                            legend_width,
+                            legend_height,
                             {},
                             value.is_quality() ? std::span<const ColourStop>(quality_colours) : amount_colours});
   constexpr int most_labels = 4;
@@ -137,25 +137,25 @@ double add_legend(const ElementShades& shades, double top, PictureSheet& sheet) 
   const int labels = are_short ? most_labels : most_labels / 2;
   for (int i = 0; i <= labels; ++i) {
     const double place = static_cast<double>(i) / labels;
-    sheet.texts.push_back({{x + place * bar_width, top + bar_height + line - 4},
+    sheet.texts.push_back({{x + place * legend_width, top + legend_height + line_height - 4},
                            i == 0        ? TextAnchor::start
                            : i == labels ? TextAnchor::end
                                          : TextAnchor::middle,
                            label_at(shades, place)});
   }
-  x += bar_width + gap;
+  x += legend_width + sheet_gap;
   if (value.kind == ShownKind::metric) {
     add_swatch(inverted_colour, "inverted");
     for (const ElementKind kind : {ElementKind::triangle, ElementKind::quadrilateral}) {
       if (value.is_quality() && shades.has(kind) && shades.scale(kind) == nullptr) {
-        top += line;
+        top += line_height;
         add_swatch(lacking_colour,
                    fmt::format("{} have none", kind == ElementKind::triangle ? "triangles" : "quadrilaterals"));
-        top -= line;
+        top -= line_height;
       }
     }
   }
-  return top + bar_height + line;
+  return top + legend_height + line_height;
 }
 
 /// The worst elements of a window, the worst first, equal ones by their numbers.
@@ -189,23 +189,23 @@ Box close_up_window(const Box& element) {
 double add_close_ups(const ElementShades& shades, int count, double top, PictureSheet& sheet) {
   const SheetPanel main = sheet.panels.front();
   const PlaneView view(main.window, main.width, main.height, main.corner);
-  const int columns = std::max((sheet.width - 2 * pad + gap) / (close_up + gap), 1);
+  const int columns = std::max((sheet.width - 2 * sheet_pad + sheet_gap) / (close_up_side + sheet_gap), 1);
   const std::vector<std::size_t> worst = worst_in(shades, main.window, count);
   for (std::size_t i = 0; i < worst.size(); ++i) {
     const auto column = static_cast<int>(i) % columns;
     if (column == 0) {
-      top += i == 0 ? pad : close_up + 2.0 * line + gap;
+      top += i == 0 ? sheet_pad : close_up_side + 2.0 * line_height + sheet_gap;
     }
     const Box box = box_of(shades, worst[i]);
-    const Point2<double> corner{static_cast<double>(pad + column * (close_up + gap)), top};
-    const double below = corner.y + close_up + line - 4;
+    const Point2<double> corner{static_cast<double>(sheet_pad + column * (close_up_side + sheet_gap)), top};
+    const double below = corner.y + close_up_side + line_height - 4;
     const auto& numbers = shades.picture().numbers;
     const std::int64_t number = numbers.empty() ? static_cast<std::int64_t>(worst[i]) : numbers[worst[i]];
     const std::string which = fmt::format("{}: element {}", i + 1, number);
-    const std::string value = fmt::format("{} {}", shades.value_shown().name(), digits(shades.value(worst[i])));
-    sheet.panels.push_back({corner, close_up, close_up, close_up_window(box)});
+    const std::string value = fmt::format("{} {}", shades.value_shown().name(), few_digits(shades.value(worst[i])));
+    sheet.panels.push_back({corner, close_up_side, close_up_side, close_up_window(box)});
     sheet.texts.push_back({{corner.x, below}, TextAnchor::start, which});
-    sheet.texts.push_back({{corner.x, below + line}, TextAnchor::start, value});
+    sheet.texts.push_back({{corner.x, below + line_height}, TextAnchor::start, value});
     sheet.description += fmt::format(" {}, {}.", which, value);
     const Point2<double> mark = view.pixel({box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2});
     sheet.marks.push_back({mark, mark_radius});
@@ -215,7 +215,7 @@ double add_close_ups(const ElementShades& shades, int count, double top, Picture
                            is_right ? TextAnchor::end : TextAnchor::start,
                            std::to_string(i + 1)});
   }
-  return worst.empty() ? top : top + close_up + 2 * line;
+  return worst.empty() ? top : top + close_up_side + 2 * line_height;
 }
 
 /// As large as it may be, of the window's proportions.
@@ -226,8 +226,10 @@ SheetPanel main_panel(const Box& window) {
     const double full = length * most_other > other * most ? most : most_other * (length / other);
     return std::clamp(static_cast<int>(std::lround(std::min(full, static_cast<double>(most)))), least_side, most);
   };
-  return {
-      {pad, pad}, side(width, height, most_width, most_height), side(height, width, most_height, most_width), window};
+  return {{sheet_pad, sheet_pad},
+          side(width, height, most_width, most_height),
+          side(height, width, most_height, most_width),
+          window};
 }
 
 }  // namespace
@@ -256,8 +258,8 @@ PictureSheet picture_sheet(const ElementShades& shades, const SheetOptions& opti
       "Boundaries of the mesh and interfaces of its regions are dark lines, inverted elements nearly black.";
   sheet.panels.push_back(main_panel(options.window.value_or(with_room(shades.box()))));
   const SheetPanel main = sheet.panels.front();
-  sheet.width = std::max(main.width, least_sheet - 2 * pad) + 2 * pad;
-  double bottom = add_legend(shades, main.corner.y + main.height + pad, sheet);
+  sheet.width = std::max(main.width, least_sheet_width - 2 * sheet_pad) + 2 * sheet_pad;
+  double bottom = add_legend(shades, main.corner.y + main.height + sheet_pad, sheet);
   if (options.worst > 0) {
     if (shades.value_shown().is_quality()) {
       bottom = add_close_ups(shades, options.worst, bottom, sheet);
@@ -265,7 +267,7 @@ PictureSheet picture_sheet(const ElementShades& shades, const SheetOptions& opti
       bottom = add_close_ups(ElementShades(shades.picture(), {}, shades.is_before()), options.worst, bottom, sheet);
     }
   }
-  sheet.height = static_cast<int>(bottom) + pad;
+  sheet.height = static_cast<int>(bottom) + sheet_pad;
   return sheet;
 }
 

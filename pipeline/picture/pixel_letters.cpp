@@ -21,7 +21,7 @@ struct Letter {
 };
 
 // By ascending characters.
-constexpr std::array letters{std::to_array<Letter>({
+constexpr std::array all_letters{std::to_array<Letter>({
     {'#', {0x0a, 0x0a, 0x1f, 0x0a, 0x1f, 0x0a, 0x0a}}, {'%', {0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03}},
     {'&', {0x0c, 0x12, 0x14, 0x08, 0x15, 0x12, 0x0d}}, {'(', {0x02, 0x04, 0x08, 0x08, 0x08, 0x04, 0x02}},
     {')', {0x08, 0x04, 0x02, 0x02, 0x02, 0x04, 0x08}}, {'*', {0x00, 0x04, 0x15, 0x0e, 0x15, 0x04, 0x00}},
@@ -65,14 +65,14 @@ constexpr std::array letters{std::to_array<Letter>({
     {'z', {0x00, 0x00, 0x1f, 0x02, 0x04, 0x08, 0x1f}},
 })};
 
-constexpr int dots = 5;
-constexpr int dot = 2;  // pixels
-constexpr int advance = (dots + 1) * dot;
+constexpr int letter_dots = 5;
+constexpr int dot_pixels = 2;  // pixels
+constexpr int letter_advance = (letter_dots + 1) * dot_pixels;
 
 const Letter& letter_of(char character) {
-  const auto find = [](char wanted) { return std::ranges::lower_bound(letters, wanted, {}, &Letter::character); };
+  const auto find = [](char wanted) { return std::ranges::lower_bound(all_letters, wanted, {}, &Letter::character); };
   const auto* const found = find(character);
-  return found != letters.end() && found->character == character ? *found : *find('?');
+  return found != all_letters.end() && found->character == character ? *found : *find('?');
 }
 
 /// A byte for each character of the text.
@@ -90,16 +90,17 @@ std::string of_ascii(std::string_view text) {
 
 void draw_text(StillPicture& picture, Point2<double> at, TextAnchor anchor, std::string_view text, Colour colour) {
   const std::string shown = of_ascii(text);
-  const int width = static_cast<int>(shown.size()) * advance - dot;
+  const int width = static_cast<int>(shown.size()) * letter_advance - dot_pixels;
   int left = static_cast<int>(std::lround(at.x)) - (anchor == TextAnchor::start    ? 0
                                                     : anchor == TextAnchor::middle ? width / 2
                                                                                    : width);
-  const int top = static_cast<int>(std::lround(at.y)) - static_cast<int>(letters[0].rows.size()) * dot;
+  const int top = static_cast<int>(std::lround(at.y)) - static_cast<int>(all_letters[0].rows.size()) * dot_pixels;
   for (const char character : shown) {
     const Letter* const letter = character == ' ' ? nullptr : &letter_of(character);
-    for (int y = 0; letter != nullptr && y < static_cast<int>(letter->rows.size()) * dot; ++y) {
-      for (int x = 0; x < dots * dot; ++x) {
-        const bool is_set = (letter->rows[static_cast<std::size_t>(y / dot)] >> (dots - 1 - x / dot) & 1) != 0;
+    for (int y = 0; letter != nullptr && y < static_cast<int>(letter->rows.size()) * dot_pixels; ++y) {
+      for (int x = 0; x < letter_dots * dot_pixels; ++x) {
+        const bool is_set =
+            (letter->rows[static_cast<std::size_t>(y / dot_pixels)] >> (letter_dots - 1 - x / dot_pixels) & 1) != 0;
         if (is_set && left + x >= 0 && left + x < picture.width && top + y >= 0 && top + y < picture.height) {
           const auto row = static_cast<std::size_t>(top + y) * static_cast<std::size_t>(picture.width);
           std::uint8_t* const pixel = picture.rgb.data() + 3 * (row + static_cast<std::size_t>(left + x));
@@ -109,7 +110,7 @@ void draw_text(StillPicture& picture, Point2<double> at, TextAnchor anchor, std:
         }
       }
     }
-    left += advance;
+    left += letter_advance;
   }
 }
 

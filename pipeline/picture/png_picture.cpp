@@ -13,7 +13,7 @@ namespace trismooth {
 
 namespace {
 
-constexpr Colour white{255, 255, 255};
+constexpr Colour paper{255, 255, 255};
 
 std::size_t place_of(const StillPicture& picture, int column, int row) {
   return 3 *
@@ -75,7 +75,7 @@ void draw_circle(StillPicture& picture, const SheetMark& mark, double width, Col
 void draw_label(StillPicture& picture, const SheetText& label) {
   for (int y = -2; y <= 2; ++y) {
     for (int x = -2; x <= 2; ++x) {
-      draw_text(picture, {label.at.x + x, label.at.y + y}, label.anchor, label.text, white);
+      draw_text(picture, {label.at.x + x, label.at.y + y}, label.anchor, label.text, paper);
     }
   }
   draw_text(picture, label.at, label.anchor, label.text, line_colour);
@@ -85,7 +85,7 @@ void draw_label(StillPicture& picture, const SheetText& label) {
 
 StillPicture draw_sheet(const ElementShades& shades, const MeshLines& lines, const PictureSheet& sheet, int threads) {
   StillPicture picture{sheet.width, sheet.height, {}};
-  picture.rgb.assign(place_of(picture, 0, sheet.height), white.red);
+  picture.rgb.assign(place_of(picture, 0, sheet.height), paper.red);
   for (const SheetPanel& panel : sheet.panels) {
     StillOptions options;
     options.width = panel.width;
@@ -98,7 +98,7 @@ StillPicture draw_sheet(const ElementShades& shades, const MeshLines& lines, con
     draw_swatch(picture, swatch);
   }
   for (const SheetMark& mark : sheet.marks) {
-    draw_circle(picture, mark, mark_width + 2, white);
+    draw_circle(picture, mark, mark_width + 2, paper);
     draw_circle(picture, mark, mark_width, line_colour);
   }
   for (const SheetText& text : sheet.texts) {

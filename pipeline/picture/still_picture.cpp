@@ -17,8 +17,8 @@ namespace {
 
 using Pixels = std::vector<std::uint8_t>;
 
-constexpr double edge_width = 0.8;
-constexpr double line_width = 2;
+constexpr double still_edge_width = 0.8;
+constexpr double still_line_width = 2;
 /// Edges of elements whose mean edge is so long begin to be seen, and are seen as they are.
 constexpr double faint_edge = 6;
 constexpr double full_edge = 12;
@@ -234,7 +234,7 @@ class ElementPainter {
     const double strength = std::min((mean_edge - faint_edge) / (full_edge - faint_edge), 1.0);
     if (strength > 0) {
       for (const Point2<double> to : points) {
-        edges_.stroke(from, to, edge_width, strength);
+        edges_.stroke(from, to, still_edge_width, strength);
         from = to;
       }
     }
@@ -283,7 +283,7 @@ StillPicture draw_still(const ElementShades& shades, const MeshLines* lines, con
   if (options.lines && lines != nullptr) {
     for (const auto* const edges_of_lines : {&lines->boundary, &lines->interfaces}) {
       for (const auto& [from, to] : *edges_of_lines) {
-        dark.stroke(view.pixel(shades.point(from)), view.pixel(shades.point(to)), line_width, 1);
+        dark.stroke(view.pixel(shades.point(from)), view.pixel(shades.point(to)), still_line_width, 1);
       }
     }
   }

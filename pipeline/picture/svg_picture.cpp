@@ -23,11 +23,11 @@ namespace trismooth {
 namespace {
 
 /// Places in panels are whole numbers of this part of a pixel.
-constexpr int units = 10;
+constexpr int svg_units = 10;
 constexpr double svg_line_width = 2;
 /// Of the edges of elements, as a part of the mean edge, and at most, in pixels.
-constexpr double edge_part = 0.05;
-constexpr double most_edge = 0.6;
+constexpr double svg_edge_part = 0.05;
+constexpr double svg_most_edge = 0.6;
 
 /// A place on the sheet in units.
 struct Place {
@@ -35,8 +35,8 @@ struct Place {
   std::int64_t y;
 };
 
-Place place_of(Point2<double> pixel) {
-  return {std::llround(pixel.x * units), std::llround(pixel.y * units)};
+Place unit_place(Point2<double> pixel) {
+  return {std::llround(pixel.x * svg_units), std::llround(pixel.y * svg_units)};
 }
 
 /// The `d` of a path: each line begins where it is as seen from the beginning of the one before.
@@ -99,7 +99,7 @@ using Polygon = std::vector<Point2<double>>;
 
 /// The part of a polygon on one side of a line: where inside(point) is not below 0.
 template <class Inside>
-Polygon cut(const Polygon& polygon, const Inside& inside) {
+Polygon half_of(const Polygon& polygon, const Inside& inside) {
   Polygon left;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point2<double> from = polygon[i];
@@ -118,16 +118,16 @@ Polygon cut(const Polygon& polygon, const Inside& inside) {
 }
 
 /// What is far from a panel is cut off, where nobody sees it: viewers have numbers of few digits.
-Polygon near(Polygon polygon, const Box& near_panel) {
+Polygon cut_off(Polygon polygon, const Box& near_panel) {
   const bool is_near = std::ranges::all_of(polygon, [&](Point2<double> point) {
     return point.x >= near_panel.low.x && point.x <= near_panel.high.x && point.y >= near_panel.low.y &&
            point.y <= near_panel.high.y;
   });
   if (!is_near) {
-    polygon = cut(polygon, [&](Point2<double> point) { return point.x - near_panel.low.x; });
-    polygon = cut(polygon, [&](Point2<double> point) { return near_panel.high.x - point.x; });
-    polygon = cut(polygon, [&](Point2<double> point) { return point.y - near_panel.low.y; });
-    polygon = cut(polygon, [&](Point2<double> point) { return near_panel.high.y - point.y; });
+    polygon = half_of(polygon, [&](Point2<double> point) { return point.x - near_panel.low.x; });
+    polygon = half_of(polygon, [&](Point2<double> point) { return near_panel.high.x - point.x; });
+    polygon = half_of(polygon, [&](Point2<double> point) { return point.y - near_panel.low.y; });
+    polygon = half_of(polygon, [&](Point2<double> point) { return near_panel.high.y - point.y; });
   }
   return polygon;
 }
@@ -154,8 +154,9 @@ class PanelText {
   /// All of it; the elements as an image where there are more than `most`.
   std::string text(std::size_t most, int threads) const {
     return fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">\n{}{}</svg>\n",
-                       panel_.corner.x, panel_.corner.y, panel_.width, panel_.height, panel_.width * units,
-                       panel_.height * units, shown_.size() > most ? image(threads) : elements_text(), lines_text());
+                       panel_.corner.x, panel_.corner.y, panel_.width, panel_.height, panel_.width * svg_units,
+                       panel_.height * svg_units, shown_.size() > most ? image(threads) : elements_text(),
+                       lines_text());
   }
 
  private:
@@ -175,7 +176,7 @@ class PanelText {
     options.lines = false;
     options.threads = threads;
     return fmt::format("<image width=\"{}\" height=\"{}\" xlink:href=\"data:image/png;base64,{}\"/>\n",
-                       panel_.width * units, panel_.height * units,
+                       panel_.width * svg_units, panel_.height * svg_units,
                        base64(png_text(draw_still(shades_, nullptr, options))));
   }
 
@@ -193,18 +194,19 @@ class PanelText {
         around += std::sqrt(squared_length(corners[i] - corners[i > 0 ? i - 1 : corners.size() - 1]));
       }
       edges += corners.size();
-      const Polygon polygon = near(std::move(corners), near_);
+      const Polygon polygon = cut_off(std::move(corners), near_);
       PathText& path = paths[shades_.shade(e)];
       for (std::size_t i = 0; i < polygon.size(); ++i) {
-        i == 0 ? path.begin(place_of(polygon[i])) : path.go_to(place_of(polygon[i]));
+        i == 0 ? path.begin(unit_place(polygon[i])) : path.go_to(unit_place(polygon[i]));
       }
       if (!polygon.empty()) {
         path.close();
       }
     }
-    const double width = std::min(edge_part * around / static_cast<double>(std::max<std::size_t>(edges, 1)), most_edge);
+    const double width =
+        std::min(svg_edge_part * around / static_cast<double>(std::max<std::size_t>(edges, 1)), svg_most_edge);
     std::string text = fmt::format("<g stroke=\"{}\" stroke-width=\"{:.2f}\" stroke-linejoin=\"round\">\n",
-                                   css_colour(edge_colour), width * units);
+                                   css_colour(edge_colour), width * svg_units);
     for (std::size_t shade = 0; shade < paths.size(); ++shade) {
       if (!paths[shade].text().empty()) {
         text += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n",
@@ -225,10 +227,10 @@ class PanelText {
         if (!overlap(box, screen_)) {
           continue;
         }
-        ends = near(std::move(ends), near_);
+        ends = cut_off(std::move(ends), near_);
         if (ends.size() >= 2) {
-          path.begin(place_of(ends[0]));
-          path.go_to(place_of(ends[1]));
+          path.begin(unit_place(ends[0]));
+          path.go_to(unit_place(ends[1]));
           path.end();
         }
       }
@@ -237,7 +239,7 @@ class PanelText {
                ? ""
                : fmt::format(
                      "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" d=\"{}\"/>\n",
-                     css_colour(line_colour), svg_line_width * units, path.text());
+                     css_colour(line_colour), svg_line_width * svg_units, path.text());
   }
 
   const ElementShades& shades_;
