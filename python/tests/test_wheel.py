@@ -48,7 +48,7 @@ def test_the_libraries_it_uses_are_its_own_or_of_the_c_library():
     own = pathlib.Path(trismooth.__file__).parent.parent
     assert any(file.name.startswith("libtbb") and own in file.parents for file in files)
     for file in files:
-        if file.name.startswith(("libtbb", "libvtk", "libOpenMesh", "libfmt", "libxxhash", "libexpat", "libCLI")):
+        if file.name.startswith(("libtbb", "libvtk", "libOpenMesh", "libfmt", "libxxhash", "libpng", "libexpat", "libCLI")):
             assert own in file.parents, f"{file} is not of the wheel"
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Window = Tuple[float, float, float, float]
 
 # From the worst shape to the best: red to blue, which all readers can tell apart. Shapes are crowded near 1, so most of
-# the scale is there. The same as in the pictures of the program (pipeline/picture/colours.h).
+# the scale is there. The same as in the program's pictures (pipeline/picture/colours.h).
 _SCALE = [(0.0, "#b2182b"), (0.5, "#ef8a62"), (0.75, "#fddbc7"), (0.9, "#deeef6"), (1.0, "#92c5de")]
 _INVERTED = "#111111"
 _EDGE = "#5b6770"

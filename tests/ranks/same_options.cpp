@@ -161,8 +161,9 @@ TEST_CASE("other files are named, and options that may differ are not") {
 TEST_CASE("every option of smooth is known to be one that is shared, or one that is not") {
   // These a rank refuses by itself, as the build or a job of several has them not; rank 0 has the say of the others, or
   // each rank for itself, or the CPU takes no notice of them.
-  std::set<std::string> known{"--help",    "--devices", "--backend", "--order",    "--layout",
-                              "--threads", "--report",  "--quiet",   "--topology", "--execution"};
+  std::set<std::string> known{"--picture", "--picture-metric", "--picture-window", "--picture-worst", "--help",
+                              "--devices", "--backend",        "--order",          "--layout",        "--threads",
+                              "--report",  "--quiet",          "--topology",       "--execution"};
   for (const Option& option : shared_options()) {
     known.insert(option.name);
   }
