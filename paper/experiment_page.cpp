@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,6 +8,7 @@
 
 #include "trismooth/paper/experiment_report.h"
 #include "trismooth/paper/figures.h"
+#include "trismooth/paper/log_chart.h"
 #include "trismooth/paper/wording.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
@@ -28,12 +30,34 @@ details { margin-top: 8px; }
 summary { color: var(--soft); font-size: 13px; cursor: pointer; }
 table.wide th, table.wide td { padding: 4px 8px; }
 table.wide th { white-space: normal; }
-th.word { text-align: left; }
+th.word, td.than { text-align: left; }
 table caption { text-align: left; font-weight: 650; padding: 18px 0 4px; }
 table.wide td small { font-size: 11px; white-space: nowrap; }
 td.paper, th.paper { background: #f5f7f9; }
 figure { margin: 0 0 20px; }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 4px; }
+.narrow-window { display: none; max-width: 520px; }
+@media screen and (max-width: 960px) {
+  .wide-window { display: none; }
+  .narrow-window { display: block; }
+  .claim .head { flex-wrap: wrap; gap: 0 24px; }
+  .claim table.stack td:first-child { grid-column: 1 / -1; }
+  table.stack caption { display: block; }
+  table.stack td.start + td[data-label]::before { content: attr(data-label); }
+  table.stack td[data-label] { flex-wrap: wrap; justify-content: flex-end; column-gap: 8px; }
+  table.stack td[data-label]::before { margin-right: auto; font-weight: 400; }
+  table.wide td.start[data-label] { grid-column: 1 / -1; }
+  table.wide td { padding: 0; }
+  table.wide td small { font-size: 12px; line-height: inherit; }
+  /* This machine and the paper side by side, under the size. */
+  table.twice tbody { grid-template-columns: repeat(auto-fill, minmax(min(340px, 100%), 1fr)); }
+  table.twice tr { grid-auto-flow: dense; grid-template-columns: minmax(0, 1fr) 5em; column-gap: 8px; }
+  table.twice td:is([data-label], .start[data-label]) { grid-column: 1; }
+  table.twice td:first-child { grid-column: 1 / -1; display: flex; justify-content: space-between; }
+  table.twice td:first-child::after { content: "the paper"; color: var(--soft); font-weight: 400; }
+  table.twice td.paper { grid-column: 2; padding: 0 4px; }
+  table.twice td.paper::before { content: none !important; }
+}
 @page { size: A4 landscape; }
 @media print { table.wide, table.wide th { font-size: 8.5pt; } table.wide td, table.wide th { padding: 2px 6px; }
                .figures { break-before: page; } svg { max-height: 165mm; } }
@@ -46,8 +70,8 @@ std::string spread_html(const Spread& spread) {
   return text.substr(0, bounds) + " <small>" + text.substr(bounds + 1) + "</small>";
 }
 
-std::string spread_cell(const std::optional<Spread>& spread, std::string_view classes = "") {
-  return html_cell(spread ? spread_html(*spread) : "-", classes);
+std::string spread_cell(const std::optional<Spread>& spread, std::string_view label, std::string_view classes = "") {
+  return html_cell(spread ? spread_html(*spread) : "-", classes, label);
 }
 
 std::string_view class_of(Verdict verdict) {
@@ -79,17 +103,20 @@ std::string header(const ExperimentReport& report) {
 
 std::string comparison_table(const std::vector<Comparison>& comparisons) {
   std::string html =
-      "<table>\n<thead><tr><th>claimed to be faster</th><th class=\"word\">than</th><th>size</th><th>times as fast</th>"
+      "<table class=\"stack\">\n<thead><tr><th>claimed to be faster</th><th "
+      "class=\"word\">than</th><th>size</th><th>times as fast</th>"
       "<th>in the paper</th><th>sweeps</th><th>supports the claim</th></tr></thead>\n<tbody>\n";
   for (const Comparison& comparison : comparisons) {
     html += "<tr>" + html_cell(full_name(comparison.claimed_faster)) +
-            html_cell(full_name(comparison.claimed_slower), "word") + html_cell(size_text(comparison.vertices)) +
-            html_cell(spread_html(comparison.factor)) +
-            html_cell(comparison.published ? three_digits(*comparison.published) : "-") +
+            html_cell(full_name(comparison.claimed_slower), "than", "than") +
+            html_cell(size_text(comparison.vertices), "", "size") +
+            html_cell(spread_html(comparison.factor), "", "times as fast") +
+            html_cell(comparison.published ? three_digits(*comparison.published) : "-", "", "in the paper") +
             html_cell(comparison.sweeps ? fmt::format("{:.0f} / {:.0f}", (*comparison.sweeps)[0].median,
                                                       (*comparison.sweeps)[1].median)
-                                        : "-") +
-            html_cell(to_string(comparison.support)) + "</tr>\n";
+                                        : "-",
+                      "", "sweeps") +
+            html_cell(to_string(comparison.support), "", "supports the claim") + "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }
@@ -115,11 +142,15 @@ std::string claims(const std::vector<Conclusion>& conclusions) {
   return html + "</div>\n";
 }
 
-/// The columns of a table in the paper's layout; those of the paper's own figures are marked.
+/// The columns of the paper's layout.
+constexpr std::array<std::string_view, 5> columns_of_paper{"serial CPU ms", "AoS ms", "SoA ms", "AoS speedup",
+                                                           "SoA speedup"};
+
+/// The head of a table in the paper's layout; the columns of the paper's own figures are marked.
 std::string table_head(bool with_paper) {
   const auto columns = [](std::string_view classes) {
     std::string html;
-    for (const std::string_view name : {"serial CPU ms", "AoS ms", "SoA ms", "AoS speedup", "SoA speedup"}) {
+    for (const std::string_view name : columns_of_paper) {
       html += fmt::format("<th class=\"{}{}\">{}</th>", html.empty() ? "start " : "", classes, name);
     }
     return html;
@@ -150,12 +181,14 @@ std::string paper_cells(const PublishedRow* row) {
 
 std::string table_html(const Table& table) {
   const bool with_paper = table.number > 0;
-  std::string html = fmt::format("<table class=\"wide\"><caption>{}</caption>\n{}<tbody>\n", escape_html(table.title),
-                                 table_head(with_paper));
+  std::string html = fmt::format("<table class=\"wide stack{}\"><caption>{}</caption>\n{}<tbody>\n",
+                                 with_paper ? " twice" : "", escape_html(table.title), table_head(with_paper));
   for (const TableRow& row : table.rows) {
-    html += "<tr>" + html_cell(size_text(row.vertices)) + spread_cell(row.serial_ms, "start") +
-            spread_cell(row.aos_ms) + spread_cell(row.soa_ms) + spread_cell(row.aos_speedup, "start") +
-            spread_cell(row.soa_speedup) + (with_paper ? paper_cells(row.published) : std::string{}) + "</tr>\n";
+    const auto& names = columns_of_paper;
+    html += "<tr>" + html_cell(size_text(row.vertices)) + spread_cell(row.serial_ms, names[0], "start") +
+            spread_cell(row.aos_ms, names[1]) + spread_cell(row.soa_ms, names[2]) +
+            spread_cell(row.aos_speedup, names[3], "start") + spread_cell(row.soa_speedup, names[4]) +
+            (with_paper ? paper_cells(row.published) : std::string{}) + "</tr>\n";
   }
   return html + "</tbody></table>\n";
 }
@@ -171,23 +204,28 @@ std::string tables_html(const ExperimentReport& report, bool of_paper) {
   return html;
 }
 
-std::string figure(const std::string& svg, std::string_view caption) {
-  return svg.empty() ? std::string{}
-                     : fmt::format("<figure>\n{}<figcaption>{}</figcaption>\n</figure>\n", svg, caption);
+std::string figure(std::string (*svg)(const ExperimentResult&, Arrangement), const ExperimentResult& result,
+                   std::string_view caption) {
+  const std::string row = svg(result, Arrangement::row);
+  return row.empty() ? std::string{}
+                     : fmt::format(
+                           "<figure>\n<div class=\"wide-window\">\n{}</div>\n<div class=\"narrow-window\">\n{}</div>\n"
+                           "<figcaption>{}</figcaption>\n</figure>\n",
+                           row, svg(result, Arrangement::column), caption);
 }
 
 std::string figures(const ExperimentResult& result) {
-  return figure(forms_figure(result),
+  return figure(&forms_figure, result,
                 "Figure 3 of the paper: running time of Forms A and B by layout. Form B of the GPU and CDP versions is "
                 "unordered, as in the paper. Bars span all runs; the paper's own times are grey.") +
-         figure(speedup_figure(result),
+         figure(&speedup_figure, result,
                 "Figure 4 of the paper: speedup of the versions over the serial CPU version. The paper's own are grey; "
                 "its serial version ran on another processor.");
 }
 
 std::string mesh_table(const ExperimentResult& result, const MeshCounts& mesh) {
   std::string html = fmt::format(
-      "<table class=\"wide\"><caption>{}: {} vertices, {} triangles</caption>\n<thead>"
+      "<table class=\"wide stack\"><caption>{}: {} vertices, {} triangles</caption>\n<thead>"
       "<tr><th></th><th></th><th class=\"group start\" colspan=\"4\">ms</th><th></th>"
       "<th class=\"group start\" colspan=\"2\">times faster</th></tr>\n<tr><th>version</th><th class=\"word\">form</th>"
       "<th class=\"start\">topology</th><th>transfer</th><th>smoothing</th><th>together</th><th>sweeps</th>"
@@ -199,11 +237,13 @@ std::string mesh_table(const ExperimentResult& result, const MeshCounts& mesh) {
     }
     const Measurement& measured = *row.measured;
     html += "<tr>" + html_cell(name_of(row.what)) + html_cell(form_of(row.what), "word") +
-            spread_cell(measured.topology, "start") +
-            (runs_on_device(row.what.version) ? spread_cell(measured.transfer) : html_cell("-")) +
-            spread_cell(measured.smoothing, "strong") + spread_cell(measured.together) +
-            html_cell(sweeps_text(measured.sweeps)) + spread_cell(result.speedup(row.vertices, row.what), "start") +
-            spread_cell(result.speedup_together(row.vertices, row.what)) + "</tr>\n";
+            spread_cell(measured.topology, "topology, ms", "start") +
+            spread_cell(runs_on_device(row.what.version) ? std::optional(measured.transfer) : std::nullopt,
+                        "transfer, ms") +
+            spread_cell(measured.smoothing, "smoothing, ms", "strong") +
+            spread_cell(measured.together, "together, ms") + html_cell(sweeps_text(measured.sweeps), "", "sweeps") +
+            spread_cell(result.speedup(row.vertices, row.what), "times faster, smoothing", "start") +
+            spread_cell(result.speedup_together(row.vertices, row.what), "times faster, together") + "</tr>\n";
   }
   return html + "</tbody></table>\n";
 }

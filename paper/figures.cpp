@@ -80,16 +80,20 @@ void add_panel(LogChart& chart, std::string title, std::vector<ChartSeries> line
   chart.panels.push_back({std::move(title), std::move(lines)});
 }
 
-std::string svg_or_nothing(const LogChart& chart) {
+std::string svg_or_nothing(LogChart chart, Arrangement arrangement) {
   const bool any_measured = std::ranges::any_of(chart.panels, [](const ChartPanel& panel) {
     return std::ranges::any_of(panel.series, [](const ChartSeries& series) { return !series.style.faint; });
   });
+  chart.arrangement = arrangement;
+  if (arrangement == Arrangement::column) {
+    chart.id += "-narrow";
+  }
   return any_measured ? log_chart_svg(chart) : std::string{};
 }
 
 }  // namespace
 
-std::string forms_figure(const ExperimentResult& result) {
+std::string forms_figure(const ExperimentResult& result, Arrangement arrangement) {
   LogChart chart{"figure-3",
                  "Milliseconds of smoothing over the number of vertices, for each version in both forms",
                  "vertices",
@@ -112,10 +116,10 @@ std::string forms_figure(const ExperimentResult& result) {
     }
     add_panel(chart, layout == Layout::aos ? "(a) AoS" : "(b) SoA", std::move(lines));
   }
-  return svg_or_nothing(chart);
+  return svg_or_nothing(std::move(chart), arrangement);
 }
 
-std::string speedup_figure(const ExperimentResult& result) {
+std::string speedup_figure(const ExperimentResult& result, Arrangement arrangement) {
   LogChart chart{"figure-4",
                  "Speedup over the serial CPU version over the number of vertices, in Form A",
                  "vertices",
@@ -136,7 +140,7 @@ std::string speedup_figure(const ExperimentResult& result) {
     }
     add_panel(chart, layout == Layout::soa ? "(a) SoA, Form A" : "(b) AoS, Form A", std::move(lines));
   }
-  return svg_or_nothing(chart);
+  return svg_or_nothing(std::move(chart), arrangement);
 }
 
 }  // namespace trismooth::experiments

@@ -20,12 +20,14 @@ namespace trismooth::experiments {
 namespace {
 
 // All lengths in the units of the viewBox, about a pixel each.
-constexpr double width = 1040;
+constexpr double width_of_row = 1040;
+constexpr double width_of_column = 400;
 constexpr double margin = 12;
 constexpr double panel_gap = 26;
 constexpr double top = 38;
 constexpr double bottom = 410;
-constexpr double legend_top = bottom + 72;
+constexpr double legend_gap_above = 72;
+constexpr double panel_height = bottom + 56;  ///< with its title and that of x
 constexpr double legend_row = 23;
 constexpr double legend_sample = 46;
 constexpr double legend_gap = 26;
@@ -33,6 +35,10 @@ constexpr double font_size = 13;
 constexpr double title_size = 15;
 constexpr double half_letter = 4.5;  ///< from the middle of a line of text to its base
 constexpr double label_gap = 40;     ///< labels of ticks closer than this are left out
+
+double width_of(const LogChart& chart) {
+  return chart.arrangement == Arrangement::row ? width_of_row : width_of_column;
+}
 
 /// About. Wide for a sans serif font, since it is not known which one shows the chart.
 double text_width(std::string_view text) {
@@ -273,7 +279,7 @@ struct Legend {
   double height = 0;
 };
 
-Legend legend(const std::vector<const ChartSeries*>& entries) {
+Legend legend(const std::vector<const ChartSeries*>& entries, double width, double legend_top) {
   double entry_width = 0;
   for (const ChartSeries* entry : entries) {
     entry_width = std::max(entry_width, legend_sample + 8 + text_width(entry->label) + legend_gap);
@@ -331,8 +337,8 @@ Frame make_frame(const LogChart& chart) {
     label_width = std::max(label_width, tick.labelled ? text_width(value_text(tick.value)) : 0);
   }
   const double left = margin + title_size + 10 + label_width + 8;
-  const auto panels = static_cast<double>(chart.panels.size());
-  const double panel_width = (width - margin - left - (panels - 1) * panel_gap) / panels;
+  const auto panels = chart.arrangement == Arrangement::row ? static_cast<double>(chart.panels.size()) : 1;
+  const double panel_width = (width_of(chart) - margin - left - (panels - 1) * panel_gap) / panels;
   const double low = std::log10(*sizes.begin());
   const double high = std::log10(*sizes.rbegin());
   const double beside = high > low ? 0.06 * (high - low) : 0.5;
@@ -341,35 +347,58 @@ Frame make_frame(const LogChart& chart) {
   return frame;
 }
 
-}  // namespace
-
-std::string log_chart_svg(const LogChart& chart) {
-  const Frame frame = make_frame(chart);
-  std::string content;
-  Axis x_axis = frame.x_axis;
-  for (const ChartPanel& panel : chart.panels) {
-    content += panel_svg(chart, panel, x_axis, frame);
-    const double step = x_axis.end - x_axis.begin + panel_gap;
-    x_axis.begin += step;
-    x_axis.end += step;
-  }
+/// The labels of the first panel's y, and what it is.
+std::string y_texts(const LogChart& chart, const Frame& frame) {
+  std::string svg;
   for (const Tick& tick : frame.y_ticks) {
     if (tick.labelled) {
-      content +=
-          text(frame.x_axis.begin - 8, frame.y_axis.place(tick.value) + half_letter, "end", value_text(tick.value));
+      svg += text(frame.x_axis.begin - 8, frame.y_axis.place(tick.value) + half_letter, "end", value_text(tick.value));
     }
   }
   const double title_x = margin + title_size - 2;
   const double middle = (top + bottom) / 2;
-  content += text(title_x, middle, "middle", chart.y_title,
-                  fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", title_x, middle));
-  const Legend below = legend(legend_entries(chart));
+  return svg + text(title_x, middle, "middle", chart.y_title,
+                    fmt::format(" transform=\"rotate(-90 {:.2f} {:.2f})\"", title_x, middle));
+}
+
+std::string row_svg(const LogChart& chart, const Frame& frame) {
+  std::string svg;
+  Axis x_axis = frame.x_axis;
+  for (const ChartPanel& panel : chart.panels) {
+    svg += panel_svg(chart, panel, x_axis, frame);
+    const double step = x_axis.end - x_axis.begin + panel_gap;
+    x_axis.begin += step;
+    x_axis.end += step;
+  }
+  return svg + y_texts(chart, frame);
+}
+
+std::string column_svg(const LogChart& chart, const Frame& frame) {
+  std::string svg;
+  double above = 0;
+  for (const ChartPanel& panel : chart.panels) {
+    svg += fmt::format("<g transform=\"translate(0 {:.2f})\">\n{}{}</g>\n", above,
+                       panel_svg(chart, panel, frame.x_axis, frame), y_texts(chart, frame));
+    above += panel_height;
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string log_chart_svg(const LogChart& chart) {
+  const Frame frame = make_frame(chart);
+  const bool row = chart.arrangement == Arrangement::row;
+  const std::string content = row ? row_svg(chart, frame) : column_svg(chart, frame);
+  const double above_last = row ? 0 : panel_height * static_cast<double>(chart.panels.size() - 1);
+  const double legend_top = above_last + bottom + legend_gap_above;
+  const Legend below = legend(legend_entries(chart), width_of(chart), legend_top);
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"{}\" viewBox=\"0 0 {} {}\" width=\"100%\" role=\"img\" "
       "aria-label=\"{}\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"{}\" fill=\"#222\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{}{}</svg>\n",
-      escape_html(chart.id), width, legend_top + below.height, escape_html(chart.description), font_size, content,
-      below.svg);
+      escape_html(chart.id), width_of(chart), legend_top + below.height, escape_html(chart.description), font_size,
+      content, below.svg);
 }
 
 }  // namespace trismooth::experiments

@@ -37,13 +37,18 @@ struct ChartPanel {
   std::vector<ChartSeries> series;
 };
 
-/// Panels side by side with the same axes, both logarithmic, over one legend. All x and y are positive.
+/// Where panels are: beside each other, for a page or a window as wide, or one below the other, for a narrow one, which
+/// has room for labels of forty letters in the legend.
+enum class Arrangement : std::uint8_t { row, column };
+
+/// Panels with the same axes, both logarithmic, over one legend. All x and y are positive.
 struct LogChart {
   std::string id;           ///< of the element, in a page unique
   std::string description;  ///< for who cannot see it
   std::string x_title;
   std::string y_title;
   std::vector<ChartPanel> panels;  ///< one or more
+  Arrangement arrangement = Arrangement::row;
 };
 
 /// The chart as one SVG element that needs no style sheet and no font of its own: it may stand in an HTML page or be a

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of `trismooth bench` in a real browser: nothing fails, the figures are drawn, it can be printed.
+"""The page of `trismooth bench` in a real browser: nothing fails, the figures are drawn, it can be printed, and
+read in windows of any width.
 
 Exits with 77 where there is no browser, which ctest shows as skipped.
 """
@@ -12,9 +13,11 @@ import zlib
 
 import browser
 import png
+import report_page
 import tool
 
 WIDTH = 1200  # of the window
+NARROW = (320, 390, 601, 700, 960)
 
 # Of a figure: its place, what is drawn in it, its texts that another one or the border cuts.
 MEASURE = """(id => {
@@ -125,14 +128,41 @@ class Page(tool.ToolTest):
                 self.assertGreater(there, 0)
                 self.assertEqual(seen, there)
 
+    def full_page(self):
+        """The page as if all had been measured, with its details open."""
+        page, count = re.subn("(<td(?! class=.[a-z ]*paper)[^>]*>)-</td>",
+                              r"\g<1>0.412 <small>(0.410-0.419)</small></td>", self.read("bench.html").decode())
+        if any(row["missing_reason"] for row in json.loads(self.read("bench.json"))["rows"]):
+            self.assertGreater(count, 4 * 3 * 4)  # four tables of three sizes, two times and two speedups
+        return self.write("full.html", page.replace("<details>", "<details open=''>"))
+
     def test_the_window_has_room_for_what_a_device_measures(self):
-        page, count = re.subn("(<td[^>]*>)-</td>", r"\g<1>0.412 <small>(0.410-0.419)</small></td>",
-                              self.read("bench.html").decode())
-        if not any(row["missing_reason"] for row in json.loads(self.read("bench.json"))["rows"]):
-            self.skipTest("a device has measured it")
-        self.assertGreater(count, 4 * 3 * 4)  # four tables of three sizes, two times and two speedups
-        self.browser.open(self.write("full.html", page), WIDTH)
+        self.browser.open(self.full_page(), WIDTH)
         self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), WIDTH)
+
+    def test_it_can_be_read_in_narrow_windows(self):
+        page = self.full_page()
+        for width in NARROW:
+            with self.subTest(width):
+                self.browser.open(page, width)
+                found = self.browser.evaluate(report_page.MEASURE)
+                self.assertLessEqual(found["width"], width)
+                self.assertGreater(found["texts"], 300)
+                for fault in ("beyond", "small", "cut", "colliding"):
+                    self.assertEqual(found[fault], [], fault)
+                # The tables have no head: every value says what it is.
+                self.assertGreater(found["labels"], 100)
+                for name in ("figure-3-narrow", "figure-4-narrow"):
+                    figure = self.figure(name)
+                    self.assertGreater(figure["right"] - figure["left"], 0.85 * min(width, 520))
+                    self.assertEqual((figure["outside"], figure["overlapping"]), ([], []))
+                    seen, there = self.lines_seen(figure)
+                    self.assertGreater(there, 0)
+                    self.assertEqual(seen, there)
+        # What the test looks for is found where it is.
+        wide = self.page_with("<style>table.stack { width: 800px ! important }</style>")
+        self.browser.open(wide, 390)
+        self.assertGreater(self.browser.evaluate(report_page.MEASURE)["width"], 390)
 
     def test_figures_that_are_not_drawn_well_are_noticed(self):
         self.browser.open(self.page_with("<style>polyline, svg path { visibility: hidden }</style>"), WIDTH)

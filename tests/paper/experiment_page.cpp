@@ -28,7 +28,7 @@ TEST_CASE("the page is well-formed, stands alone and runs nothing") {
     CHECK(page.links.empty());
     CHECK(page.count("script") == 0);
     CHECK(page.count("link") == 0);
-    CHECK(page.count("svg") == 2);
+    CHECK(page.count("svg") == 4);  // each figure for wide windows and for narrow ones
   }
 }
 
@@ -52,6 +52,8 @@ TEST_CASE("the page has the claims, the paper's tables beside its figures, the f
   CHECK(count_of(page, "<td class=\"paper\">44.76</td>") == 1);
   CHECK(count_of(page, "id=\"figure-3\"") == 1);
   CHECK(count_of(page, "id=\"figure-4\"") == 1);
+  CHECK(count_of(page, "id=\"figure-3-narrow\"") == 1);
+  CHECK(count_of(page, "id=\"figure-4-narrow\"") == 1);
   // Every case on every mesh: a row each.
   CHECK(count_of(page, "<tr><td>CDP-SoA</td>") == 9);
 }

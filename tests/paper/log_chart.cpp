@@ -13,6 +13,7 @@
 
 using pages::Element;
 using trismooth::Spread;
+using trismooth::experiments::Arrangement;
 using trismooth::experiments::ChartPanel;
 using trismooth::experiments::ChartPoint;
 using trismooth::experiments::ChartSeries;
@@ -237,6 +238,45 @@ TEST_CASE("all points and whiskers lie inside their panel, and all panels inside
   REQUIRE(box.size() == 4);
   CHECK(frames[0].number("x") > 0);
   CHECK(frames[1].number("x") + frames[1].number("width") < box[2]);
+}
+
+TEST_CASE("in a column every panel has both axes, below the one before and above the legend, in a narrow picture") {
+  LogChart drawn = sample_chart();
+  const Picture row = draw(drawn);
+  drawn.arrangement = Arrangement::column;
+  const Picture column = draw(drawn);
+  const std::vector<double> box = numbers(column.elements.front().attribute("viewBox"));
+  REQUIRE(box.size() == 4);
+  CHECK(box[2] < numbers(row.elements.front().attribute("viewBox")).at(2) / 2);
+  const std::vector<Element> panels = column.all("g");
+  const std::vector<Element> frames = column.frames();
+  REQUIRE(panels.size() == 2);
+  REQUIRE(frames.size() == 2);
+  std::vector<double> tops;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::vector<double> moved = numbers(panels[i].attribute("transform"));
+    REQUIRE(moved.size() == 2);
+    CHECK(moved[0] == 0);
+    tops.push_back(moved[1] + frames[i].number("y"));
+    CHECK(frames[i].number("x") > 0);
+    CHECK(frames[i].number("x") + frames[i].number("width") < box[2]);
+    for (const char* text : {"vertices", "ms", "1K", "100K", "10,000"}) {
+      CAPTURE(i, text);
+      CHECK(panels[i].text.find(text) != std::string::npos);
+    }
+  }
+  CHECK(tops[1] > tops[0] + frames[0].number("height") + 40);
+  for (const Element& text : column.all("text")) {
+    if (text.text == "serial" || text.text == "device" || text.text == "paper") {
+      CHECK(text.number("y") > tops[1] + frames[1].number("height") + 40);
+      CHECK(text.number("y") < box[3]);
+    }
+  }
+  // The same points, with the same words.
+  REQUIRE(column.markers().size() == row.markers().size());
+  for (std::size_t i = 0; i < row.markers().size(); ++i) {
+    CHECK(column.markers()[i].text == row.markers()[i].text);
+  }
 }
 
 TEST_CASE("a whisker spans the least to the most") {
