@@ -68,6 +68,15 @@ class WholeMesh(ranks_tool.RanksTest):
             self.assertEqual("rank 0 does it" in outcome.err, ranks > 1)
         self.assertNotEqual(self.read("alone_1.vtu"), self.read("alone_2.vtu"))
 
+    def test_meshes_are_compared_by_the_first_rank_as_by_one_process(self):
+        pieces.write_vtu(self.path("whole.vtu"), self.random_mesh(700))
+        self.run_tool("smooth", "whole.vtu", "smoother.off", "--quiet")
+        alone = self.run_tool("compare", "whole.vtu", "smoother.off")
+        for ranks in RANKS:
+            outcome = self.run_over(ranks, "compare", "whole.vtu", "smoother.off")
+            self.assertEqual(outcome.out, alone.out)
+            self.assertEqual("rank 0 does it" in outcome.err, ranks > 1)
+
     def notes_of(self, ranks, name):
         said = self.run_over(ranks, "smooth", name, "out.pvtu" if ranks else "alone.vtu").err.splitlines()
         return [line for line in said if ": note: " in line]
