@@ -169,10 +169,11 @@ std::string comparison_lines(const PipelineResult& result) {
   std::string text = labelled_line("compared:", comparison.path.string());
   text += labelled_line("moved:", moved_text(result));
   if (comparison.moved_vertices > 0) {
-    text += labelled_line("", comparison.held_vertices == 0
-                                  ? std::string("none of them is held by a smoothing")
-                                  : fmt::format("{} of them are held by a smoothing: {}", comparison.held_vertices,
-                                                moved_held_text(comparison)));
+    text +=
+        labelled_line("", comparison.held_vertices == 0
+                              ? std::string("none of them is held by a smoothing")
+                              : fmt::format("{} of them {} held by a smoothing: {}", comparison.held_vertices,
+                                            comparison.held_vertices == 1 ? "is" : "are", moved_held_text(comparison)));
     text += labelled_line("elements:", changed_elements_text(comparison));
     text += labelled_line("domain:", areas_text(result));
   }
