@@ -158,13 +158,41 @@ double add_legend(const ElementShades& shades, double top, PictureSheet& sheet) 
   return top + legend_height + line_height;
 }
 
+/// Whether an element reaches into a window. (Of a corner that points inwards both sides are taken.)
+bool reaches(const ElementShades& shades, std::size_t element, const Box& window) {
+  if (!overlap(box_of(shades, element), window)) {
+    return false;
+  }
+  const auto corners = shades.elements()[element];
+  const auto point = [&](std::size_t i) { return shades.point(corners[i % corners.size()]); };
+  const std::array<Point2<double>, 4> rim{
+      window.low, {window.high.x, window.low.y}, window.high, {window.low.x, window.high.y}};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point2<double> from = point(i);
+    const Point2<double> side = point(i + 1) - from;
+    const auto are_on = [&](const auto& places, double sign) {
+      return std::ranges::all_of(places, [&](Point2<double> place) { return sign * cross(side, place - from) >= 0; });
+    };
+    std::vector<Point2<double>> others;
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      others.push_back(point(i + k));
+    }
+    for (const double sign : {1.0, -1.0}) {
+      if (squared_length(side) > 0 && are_on(others, sign) && are_on(rim, -sign)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 /// The worst elements of a window, the worst first, equal ones by their numbers.
 std::vector<std::size_t> worst_in(const ElementShades& shades, const Box& window, int count) {
   std::vector<std::pair<double, std::size_t>> worst;
   for (std::size_t e = 0; e < shades.elements().size(); ++e) {
     const std::pair<double, std::size_t> found{shades.place(e), e};
     const bool is_worse = std::ssize(worst) < count || found < worst.back();
-    if (!std::isnan(found.first) && is_worse && overlap(box_of(shades, e), window)) {
+    if (!std::isnan(found.first) && is_worse && reaches(shades, e, window)) {
       worst.insert(std::ranges::upper_bound(worst, found), found);
       worst.resize(std::min(worst.size(), static_cast<std::size_t>(count)));
     }
@@ -176,12 +204,15 @@ std::vector<std::size_t> worst_in(const ElementShades& shades, const Box& window
   return elements;
 }
 
+/// Half a close-up's width, in extents of its element.
+constexpr double around_element = 1.5;
+
 /// A square around an element, with its neighbours.
 Box close_up_window(const Box& element) {
-  constexpr double around = 1.5;
   const Point2<double> middle{element.low.x / 2 + element.high.x / 2, element.low.y / 2 + element.high.y / 2};
   const double extent = std::max(element.high.x - element.low.x, element.high.y - element.low.y);
-  const double half = extent > 0 ? around * extent : std::max({std::abs(middle.x), std::abs(middle.y), 1.0}) * 1e-6;
+  const double half =
+      extent > 0 ? around_element * extent : std::max({std::abs(middle.x), std::abs(middle.y), 1.0}) * 1e-6;
   return {{middle.x - half, middle.y - half}, {middle.x + half, middle.y + half}};
 }
 
@@ -198,7 +229,7 @@ double add_close_ups(const ElementShades& shades, int count, double top, Picture
     }
     const Box box = box_of(shades, worst[i]);
     const Point2<double> corner{static_cast<double>(sheet_pad + column * (close_up_side + sheet_gap)), top};
-    const double below = corner.y + close_up_side + line_height - 4;
+    const double below = corner.y + close_up_side + line_height - 2;
     const auto& numbers = shades.picture().numbers;
     const std::int64_t number = numbers.empty() ? static_cast<std::int64_t>(worst[i]) : numbers[worst[i]];
     const std::string which = fmt::format("{}: element {}", i + 1, number);
@@ -209,6 +240,8 @@ double add_close_ups(const ElementShades& shades, int count, double top, Picture
     sheet.description += fmt::format(" {}, {}.", which, value);
     const Point2<double> mark = view.pixel({box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2});
     sheet.marks.push_back({mark, mark_radius});
+    constexpr double half = close_up_side / 2.0;
+    sheet.marks.push_back({{corner.x + half, corner.y + half}, std::sqrt(2) * half / (2 * around_element)});
     // (Beside the circle, on the side where there is more room.)
     const bool is_right = mark.x > main.corner.x + main.width / 2.0;
     sheet.texts.push_back({{mark.x + (is_right ? -mark_radius - 3 : mark_radius + 3), mark.y + 4},
@@ -244,7 +277,7 @@ Box box_of(const ElementShades& shades, std::size_t element) {
 
 bool has_elements(const ElementShades& shades, const Box& window) {
   for (std::size_t e = 0; e < shades.elements().size(); ++e) {
-    if (overlap(box_of(shades, e), window)) {
+    if (reaches(shades, e, window)) {
       return true;
     }
   }

@@ -40,7 +40,7 @@ struct SheetSwatch {
   std::span<const ColourStop> stops;  ///< empty: one colour
 };
 
-/// A circle around a place in the main panel.
+/// A circle around an element, in the main panel and in its close-up.
 struct SheetMark {
   Point2<double> centre;
   double radius = 0;

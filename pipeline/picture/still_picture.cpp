@@ -73,7 +73,8 @@ class Canvas {
     if (!clip(from, to, 0)) {
       return;
     }
-    const double steps = std::max(std::ceil(std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))), 1.0);
+    // (Less than a pixel from one to the next, whatever is rounded.)
+    const double steps = std::floor(std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
     for (double i = 0; i <= steps; ++i) {
       const double part = i / steps;
       raise(at(within(from.x + part * (to.x - from.x), width_), within(from.y + part * (to.y - from.y), height_)),

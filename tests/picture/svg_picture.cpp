@@ -169,8 +169,8 @@ TEST_CASE("close-ups are of the worst elements in the window, the worst first, b
   const pages::Parsed page = parsed(draw(picture, options));
   CHECK(page.count("svg") == 4);
   CHECK(page.says("1: element 10"));
-  CHECK(page.says("2: element 30"));
-  CHECK(page.count("circle") == 4);  // two for a mark
+  CHECK(page.says("2: element 20"));
+  CHECK(page.count("circle") == 8);  // two for a mark, which the main picture and the close-up have
   options.window = Box{{0.5, 1.5}, {1.5, 2}};
   const pages::Parsed above = parsed(draw(picture, options));
   CHECK(above.says("1: element 30"));
