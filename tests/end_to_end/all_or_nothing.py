@@ -51,6 +51,17 @@ class AllOrNothing(tool.ToolTest):
                     self.assertEqual(outcome.out, "")
                     self.assertEqual(self.content(), before)
 
+    def test_a_picture_that_cannot_be_written(self):
+        for arguments in (["--picture", "new.svg"], ["--report", "old.json", "--picture", "new.svg"],
+                          ["--picture", "new.svg", "--picture", "new.png", "--picture-worst", "4"]):
+            with self.subTest(arguments):
+                before = self.content()
+                outcome = self.run_tool("smooth", "plate.off", "out.off", *arguments, expect=NOT_WRITTEN,
+                                        limits={resource.RLIMIT_FSIZE: 2000})
+                self.assertIn("trismooth: error: new.svg: ", outcome.err)
+                self.assertIn("so out.off is not written either", outcome.err)
+                self.assertEqual(self.content(), before)
+
     def test_every_report_that_cannot_be_written_is_named(self):
         outcome = self.run_tool("quality", "plate.off", "--report", "old.html", "--report", "new.html",
                                 expect=NOT_WRITTEN, limits=LARGEST_FILE)

@@ -5,6 +5,7 @@ Examples: which options these are is in same_options.cpp.
 """
 
 import os
+import pathlib
 
 import ranks_tool
 import tool
@@ -39,6 +40,20 @@ class OptionsOfRanks(ranks_tool.RanksTest):
         self.refuse("--max-sweeps", [*common, "--max-sweeps", "3"], common)
         self.refuse("OUTPUT", common, ["smooth", "mesh.off", "out2.off"])
         self.refuse("OUTPUT", common, ["quality", "mesh.off"])
+
+    def test_pictures_take_the_whole_mesh(self):
+        self.run_tool("smooth", "mesh.off", "one.off", "--picture", "one.svg")
+        for arguments in (["smooth", "mesh.off", "out.pvtu"], ["quality", "one.off"]):
+            with self.subTest(arguments):
+                outcome = self.run_over(2, *arguments, "--picture", "out.svg", expect=WRONG_USAGE)
+                self.assertIn("--picture over MPI ranks takes the whole mesh", self.errors_of(outcome)[0])
+                self.assertFalse(os.path.exists(self.path("out.svg")) or os.path.exists(self.path("out.pvtu")))
+                self.run_over(2, *arguments, "--picture", "out.svg", "--gather")
+                self.assertEqual(self.read("out.svg"), self.read("one.svg"))
+                for name in ("out.svg", "out.pvtu"):
+                    pathlib.Path(self.path(name)).unlink(missing_ok=True)
+        self.run_over(2, "smooth", "mesh.off", "out.off", "--picture", "out.svg")
+        self.assertEqual(self.read("out.svg"), self.read("one.svg"))
 
     def test_options_that_one_rank_refuses(self):
         # The build or a job of several has them not.
