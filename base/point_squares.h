@@ -34,16 +34,23 @@ class PointSquares {
   template <class Visit>
   void visit_near(Point2<double> point, double distance, double reach, const Visit& visit) const {
     const Square low = square_of({point.x - distance, point.y - distance}, reach);
+    const Square middle = square_of(point, reach);
     const Square high = square_of({point.x + distance, point.y + distance}, reach);
-    visit_square(low, reach, visit);
-    if (high.column != low.column) {
-      visit_square({high.column, low.row}, reach, visit);
-    }
-    if (high.row != low.row) {
-      visit_square({low.column, high.row}, reach, visit);
-      if (high.column != low.column) {
-        visit_square(high, reach, visit);
+    const auto visit_row = [&](double row) {
+      visit_square({low.column, row}, reach, visit);
+      if (middle.column != low.column) {
+        visit_square({middle.column, row}, reach, visit);
       }
+      if (high.column != middle.column) {
+        visit_square({high.column, row}, reach, visit);
+      }
+    };
+    visit_row(low.row);
+    if (middle.row != low.row) {
+      visit_row(middle.row);
+    }
+    if (high.row != middle.row) {
+      visit_row(high.row);
     }
   }
 
@@ -55,7 +62,8 @@ class PointSquares {
     double row;
   };
 
-  /// Its sides are twice the reach, so that what is near a point is in four squares at most.
+  /// Its sides are twice the reach, so that what is near a point is in four squares at most. Where the point is in the
+  /// middle of one, rounding may put both ends of what is near beyond its sides: in three columns or rows then.
   static Square square_of(Point2<double> point, double reach) {
     return {number_of(point.x, 2 * reach), number_of(point.y, 2 * reach)};
   }

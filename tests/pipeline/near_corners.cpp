@@ -60,6 +60,32 @@ TEST_CASE("corners join where they are near each other, and nowhere else") {
   CHECK(join_near_corners(near.points, near.triangles, 1e-6).back() != std::ssize(near.points) - 1);
 }
 
+TEST_CASE("corners join at every place of coordinates that are whole multiples of the distance") {
+  // As files of six decimals have them, and people ask for the last one.
+  constexpr double distance = 1e-6;
+  constexpr int most = 3000;
+  std::vector<Point2<double>> points;
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < most; ++i) {
+    const double x = 46 + 7919 * i * distance;
+    const double y = 182 - 104729 * i * distance;
+    for (const double off : {0.0, 1e-9}) {
+      const auto v = static_cast<std::int32_t>(points.size());
+      points.insert(points.end(), {{x + off, y}, {x + 0.003, y + off}, {x, y + 0.003 - off}});
+      triangles.push_back({v, v + 1, v + 2});
+    }
+  }
+  const std::vector<std::int32_t> joined = join_near_corners(points, triangles, distance);
+  std::vector<std::int32_t> missing;
+  for (std::int32_t v = 0; v < std::ssize(joined); ++v) {
+    const bool is_copy = v % 6 >= 3;
+    if (joined[v] != (is_copy ? v - 3 : v)) {
+      missing.push_back(v);
+    }
+  }
+  CHECK(missing == std::vector<std::int32_t>{});
+}
+
 TEST_CASE("corners of the smallest and largest coordinates join, and vertices of no triangle do not") {
   constexpr double largest = std::numeric_limits<double>::max() / 4;
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
