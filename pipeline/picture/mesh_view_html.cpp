@@ -35,9 +35,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// That a page shows one by one.
-constexpr std::int64_t most_elements = 2'000'000;
-
 /// What the bits of namespace hold mean to people, from the lowest.
 constexpr std::array<std::string_view, 8> held_reasons{"boundary",
                                                        "edge of three elements or more",
@@ -203,9 +200,9 @@ std::string tools(const MeshPicture& picture, const PackedPicture& packed) {
 
 }  // namespace
 
-std::string mesh_view_html(const MeshPicture& picture, Workers& workers) {
+std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::int64_t most) {
   const ElementList elements = picture.elements.list();
-  const bool is_large = std::ssize(elements) > most_elements;
+  const bool is_large = std::ssize(elements) > most;
   std::vector<std::int32_t> shown;
   if (is_large) {
     shown = elements_near_worst(picture, workers);
@@ -236,7 +233,7 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers) {
     html += fmt::format(
         "The mesh has {} elements, which are more than a page can show one by one ({}): this is a picture of all of "
         "them, in which the worst are in front, and the {} around the worst ones, which can be clicked.",
-        count_text(std::ssize(elements)), count_text(most_elements), count_text(std::ssize(shown)));
+        count_text(std::ssize(elements)), count_text(most), count_text(std::ssize(shown)));
   }
   html +=
       "</div>\n<div class=\"view-info\" aria-live=\"polite\"><p class=\"soft\">Click an element to see its number, "

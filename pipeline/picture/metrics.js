@@ -7,46 +7,43 @@ const meshMetrics = (() => {
   const degrees = 180 / Math.PI;
   const length = (x, y) => Math.sqrt(x * x + y * y);
 
-  // Of a triangle: twice its area, and its sides from the shortest to the longest.
-  const sides = (ax, ay, bx, by, cx, cy) =>
-    [length(bx - ax, by - ay), length(cx - bx, cy - by), length(ax - cx, ay - cy)].sort((p, q) => p - q);
+  // Of a triangle: twice its area, and its sides. (Pages have millions: no arrays are made for each.)
   const doubled = (ax, ay, bx, by, cx, cy) => (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+  const shortest = (ax, ay, bx, by, cx, cy) => Math.min(length(bx - ax, by - ay), length(cx - bx, cy - by), length(ax - cx, ay - cy));
+  const longest = (ax, ay, bx, by, cx, cy) => Math.max(length(bx - ax, by - ay), length(cx - bx, cy - by), length(ax - cx, ay - cy));
+  const around = (ax, ay, bx, by, cx, cy) => length(bx - ax, by - ay) + length(cx - bx, cy - by) + length(ax - cx, ay - cy);
   const triangleShape = (ax, ay, bx, by, cx, cy) => {
-    const squares = (bx - ax) ** 2 + (by - ay) ** 2 + (cx - bx) ** 2 + (cy - by) ** 2 + (ax - cx) ** 2 + (ay - cy) ** 2;
+    const squares = (bx - ax) * (bx - ax) + (by - ay) * (by - ay) + (cx - bx) * (cx - bx) + (cy - by) * (cy - by) +
+      (ax - cx) * (ax - cx) + (ay - cy) * (ay - cy);
     return squares > 0 ? 2 * Math.sqrt(3) * doubled(ax, ay, bx, by, cx, cy) / squares : 0;
   };
   const angleAt = (ax, ay, bx, by, cx, cy) =>
     Math.atan2(Math.abs(doubled(ax, ay, bx, by, cx, cy)), (bx - ax) * (cx - ax) + (by - ay) * (cy - ay)) * degrees;
-  const triangleAngles = (ax, ay, bx, by, cx, cy) => doubled(ax, ay, bx, by, cx, cy) === 0
-    ? [0, 180]
-    : [angleAt(ax, ay, bx, by, cx, cy), angleAt(bx, by, cx, cy, ax, ay), angleAt(cx, cy, ax, ay, bx, by)];
+  const smallestAngle = (ax, ay, bx, by, cx, cy) => doubled(ax, ay, bx, by, cx, cy) === 0 ? 0
+    : Math.min(angleAt(ax, ay, bx, by, cx, cy), angleAt(bx, by, cx, cy, ax, ay), angleAt(cx, cy, ax, ay, bx, by));
+  const largestAngle = (ax, ay, bx, by, cx, cy) => doubled(ax, ay, bx, by, cx, cy) === 0 ? 180
+    : Math.max(angleAt(ax, ay, bx, by, cx, cy), angleAt(bx, by, cx, cy, ax, ay), angleAt(cx, cy, ax, ay, bx, by));
 
   const triangle = {
     shape: triangleShape,
-    area: (...p) => doubled(...p) / 2,
-    min_angle: (...p) => Math.min(...triangleAngles(...p)),
-    max_angle: (...p) => Math.max(...triangleAngles(...p)),
-    aspect_ratio: (...p) => {
-      const [l0, l1, l2] = sides(...p);
-      return l2 * (l0 + l1 + l2) / (2 * Math.sqrt(3) * Math.abs(doubled(...p)));
+    area: (ax, ay, bx, by, cx, cy) => doubled(ax, ay, bx, by, cx, cy) / 2,
+    min_angle: smallestAngle,
+    max_angle: largestAngle,
+    aspect_ratio: (ax, ay, bx, by, cx, cy) => longest(ax, ay, bx, by, cx, cy) * around(ax, ay, bx, by, cx, cy) /
+      (2 * Math.sqrt(3) * Math.abs(doubled(ax, ay, bx, by, cx, cy))),
+    radius_ratio: (ax, ay, bx, by, cx, cy) =>
+      length(bx - ax, by - ay) * length(cx - bx, cy - by) * length(ax - cx, ay - cy) * around(ax, ay, bx, by, cx, cy) /
+      (4 * doubled(ax, ay, bx, by, cx, cy) ** 2),
+    edge_ratio: (ax, ay, bx, by, cx, cy) => longest(ax, ay, bx, by, cx, cy) / shortest(ax, ay, bx, by, cx, cy),
+    condition: (ax, ay, bx, by, cx, cy) => 1 / triangleShape(ax, ay, bx, by, cx, cy),
+    scaled_jacobian: (ax, ay, bx, by, cx, cy) => {
+      // Twice the area by the two longer sides.
+      const all = length(bx - ax, by - ay) * length(cx - bx, cy - by) * length(ax - cx, ay - cy);
+      const least = shortest(ax, ay, bx, by, cx, cy);
+      return all > 0 ? 2 * doubled(ax, ay, bx, by, cx, cy) / (Math.sqrt(3) * (all / least)) : 0;
     },
-    radius_ratio: (...p) => {
-      const [l0, l1, l2] = sides(...p);
-      return l0 * l1 * l2 * (l0 + l1 + l2) / (4 * doubled(...p) ** 2);
-    },
-    edge_ratio: (...p) => {
-      const [l0, , l2] = sides(...p);
-      return l2 / l0;
-    },
-    condition: (...p) => 1 / triangleShape(...p),
-    scaled_jacobian: (...p) => {
-      const [, l1, l2] = sides(...p);
-      return l1 > 0 ? 2 * doubled(...p) / (Math.sqrt(3) * l1 * l2) : 0;
-    },
-    equiangle_skew: (...p) => {
-      const angles = triangleAngles(...p);
-      return Math.max((Math.max(...angles) - 60) / 120, (60 - Math.min(...angles)) / 60, 0);
-    },
+    equiangle_skew: (ax, ay, bx, by, cx, cy) => Math.max((largestAngle(ax, ay, bx, by, cx, cy) - 60) / 120,
+      (60 - smallestAngle(ax, ay, bx, by, cx, cy)) / 60, 0),
   };
 
   // Of a quadrilateral, for each corner: what the sides that leave it have as cross product, lengths and angle.

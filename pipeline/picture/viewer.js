@@ -35,10 +35,10 @@
 
   function joined(bytes, count, planes) {
     const numbers = new Uint32Array(count);
-    for (let plane = 0; plane < planes; ++plane) {
-      for (let i = 0, from = plane * count; i < count; ++i) {
-        numbers[i] |= bytes[from + i] << 8 * plane;
-      }
+    const [second, third, fourth] = [count, 2 * count, 3 * count];
+    for (let i = 0; i < count; ++i) {
+      numbers[i] = bytes[i] | (planes > 1 ? bytes[second + i] << 8 : 0) | (planes > 2 ? bytes[third + i] << 16 : 0) |
+        (planes > 3 ? bytes[fourth + i] << 24 : 0);
     }
     return numbers;
   }
@@ -172,7 +172,6 @@
 
   // --- Colours: for each element a byte before and one after; 0 is inverted.
 
-  const scaleOf = (metric, e) => about.scales[isTriangle(e) ? 'triangle' : 'quadrilateral'][metric];
   const placeOnScale = (scale, value) => scale.reciprocal ? scale.ideal / value : (value - scale.worst) / (scale.ideal - scale.worst);
   const byteOf = (place) => place >= 0 ? 1 + Math.round(254 * Math.min(place, 1)) : Number.isNaN(place) ? 1 : 0;
 
@@ -193,6 +192,32 @@
     found.sort((p, q) => p - q);
     const high = found[Math.min(Math.floor(found.length * 0.995), found.length - 1)];
     return [isLogarithmic ? found[Math.floor(found.length * 0.005)] : 0, high];
+  }
+
+  function fillByQuality(bytes, metric) {
+    for (const kind of ['triangle', 'quadrilateral']) {
+      const isOfTriangles = kind === 'triangle';
+      const [begin, end] = isOfTriangles ? [0, mesh.triangles] : [mesh.triangles, mesh.elements];
+      const evaluate = meshMetrics[kind][metric];
+      const shape = metric === 'shape' ? null : meshMetrics[kind].shape;
+      const scale = about.scales[kind][metric];
+      if (!evaluate) {
+        bytes.fill(255, 2 * begin, 2 * end);
+        continue;
+      }
+      const p = scratch;
+      for (let now = 0; now < 2; ++now) {
+        for (let e = begin; e < end; ++e) {
+          if (now === 1 && !about.moved) {
+            bytes[2 * e + 1] = bytes[2 * e];
+            continue;
+          }
+          placesOf(e, now, p);
+          const isInverted = shape !== null && shape(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]) < 0;
+          bytes[2 * e + now] = isInverted ? 0 : byteOf(placeOnScale(scale, evaluate(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7])));
+        }
+      }
+    }
   }
 
   function bytesOfElements(metric) {
@@ -216,13 +241,8 @@
       };
       legend = {kind: 'amount', metric, ends: [low, high], isLogarithmic: true};
     } else {
-      byte = (e, now) => {
-        if (metric !== 'shape' && valueOf('shape', e, now) < 0) {
-          return 0;
-        }
-        const scale = scaleOf(metric, e);
-        return scale ? byteOf(placeOnScale(scale, valueOf(metric, e, now))) : 255;
-      };
+      fillByQuality(bytes, metric);
+      return {bytes, legend};
     }
     for (let e = 0; e < mesh.elements; ++e) {
       bytes[2 * e] = byte(e, 0);

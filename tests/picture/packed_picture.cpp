@@ -117,9 +117,12 @@ std::map<std::int64_t, Shown> elements_of(const PackedPicture& packed, bool has_
     }
   };
   for (const std::uint32_t e : s["exact"]) {
-    exact(elements[numbers[e]].before);
+    Shown& shown = elements[numbers[e]];
+    exact(shown.before);
     if (has_moved) {
-      exact(elements[numbers[e]].now);
+      exact(shown.now);
+    } else {
+      shown.now = shown.before;
     }
   }
   return elements;
