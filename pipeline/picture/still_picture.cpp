@@ -74,9 +74,9 @@ class Canvas {
       return;
     }
     // (Less than a pixel from one to the next, whatever is rounded.)
-    const double steps = std::floor(std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
-    for (double i = 0; i <= steps; ++i) {
-      const double part = i / steps;
+    const int steps = static_cast<int>(std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
+    for (int i = 0; i <= steps; ++i) {
+      const double part = static_cast<double>(i) / steps;
       raise(at(within(from.x + part * (to.x - from.x), width_), within(from.y + part * (to.y - from.y), height_)),
             value);
     }
