@@ -229,7 +229,9 @@ std::size_t report_bytes(const PipelineResult& result) {
   constexpr std::size_t of_all = std::size_t{4} << 20;
   constexpr std::size_t of_a_sweep = 4096;
   constexpr std::size_t of_a_region = 8192;
-  return of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0) +
+  constexpr std::size_t of_a_shown_vertex = 400;
+  const std::size_t shown = result.picture ? result.picture->before.size() : 0;
+  return shown * of_a_shown_vertex + of_all + (result.smoothing ? result.smoothing->history.size() * of_a_sweep : 0) +
          result.regions_before.size() * of_a_region;
 }
 

@@ -140,7 +140,7 @@ void ElementShades::measure_area() {
 void ElementShades::measure_moves() {
   if (picture_.after.empty()) {
     throw std::invalid_argument(
-        "nothing has moved in this run, so no picture can show how far: moved is for smooth, deform and compare");
+        "nothing has moved, so no picture can show how far; smooth, deform and compare make pictures of moved");
   }
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     range_.high = std::max(range_.high, value(e));
