@@ -561,6 +561,27 @@ TEST_CASE("the page is that of a comparison") {
   CHECK_FALSE(page.says("Smoothing"));
 }
 
+TEST_CASE("pictures show the second mesh, and how far it is from the first") {
+  const Files files;
+  Mesh mesh = board();
+  files.write("a.off", mesh);
+  mesh.points[12].x += 0.125;
+  files.write("b.off", mesh);
+  const auto picture_of = [&](const std::string& name, Words words) {
+    const std::string picture = (files.folder() / name).string();
+    words.insert(words.end(), {"--picture", picture});
+    const Outcome outcome = call(words, &run_pipeline);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return bytes_of(picture);
+  };
+  const std::string first = (files.folder() / "a.off").string();
+  const std::string second = (files.folder() / "b.off").string();
+  CHECK(picture_of("compared.svg", {"compare", first, second}) == picture_of("second.svg", {"quality", second}));
+  CHECK(picture_of("moved.svg", {"compare", first, second, "--picture-metric", "moved"}).find("0.125") !=
+        std::string::npos);
+}
+
 TEST_CASE("the library compares two files, and nothing else beside") {
   const Files files;
   Mesh mesh = board();
