@@ -10,6 +10,7 @@
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/pipeline/picture/plane_view.h"
+#include "trismooth/quality/element.h"
 
 namespace trismooth {
 
@@ -53,13 +54,13 @@ class Canvas {
   const Pixels& bytes() const { return bytes_; }
 
   /// The pixels whose middle is inside.
-  void fill(std::span<const Point2<double>> corners, std::uint8_t value) {
-    const auto [top, bottom] = std::ranges::minmax(corners, {}, &Point2<double>::y);
-    const int end = pixel_from(bottom.y, height_);
-    for (int row = pixel_from(top.y, height_); row < end; ++row) {
+  template <std::size_t count>
+  void fill(const std::array<Point2<double>, count>& corners, const Box& box, std::uint8_t value) {
+    const int end = pixel_from(box.high.y, height_);
+    for (int row = pixel_from(box.low.y, height_); row < end; ++row) {
       std::array<double, 4> crossings{};
-      const std::size_t count = crossings_of(corners, row + 0.5, crossings);
-      for (std::size_t i = 0; i + 1 < count; i += 2) {
+      const std::size_t found = crossings_of(corners, row + 0.5, crossings);
+      for (std::size_t i = 0; i + 1 < found; i += 2) {
         const int right = pixel_from(crossings[i + 1], width_);
         for (int column = pixel_from(crossings[i], width_); column < right; ++column) {
           raise(at(column, row), value);
@@ -74,12 +75,13 @@ class Canvas {
       return;
     }
     // (Less than a pixel from one to the next, whatever is rounded.)
-    const int steps = static_cast<int>(std::max(std::abs(to.x - from.x), std::abs(to.y - from.y))) + 1;
-    for (int i = 0; i <= steps; ++i) {
-      const double part = static_cast<double>(i) / steps;
-      raise(at(within(from.x + part * (to.x - from.x), width_), within(from.y + part * (to.y - from.y), height_)),
-            value);
+    const Point2<double> along = to - from;
+    const int steps = static_cast<int>(std::max(std::abs(along.x), std::abs(along.y))) + 1;
+    const double part = 1.0 / steps;
+    for (int i = 0; i < steps; ++i) {
+      raise(at(within(from.x + i * part * along.x, width_), within(from.y + i * part * along.y, height_)), value);
     }
+    raise(at(within(to.x, width_), within(to.y, height_)), value);
   }
 
   /// A line whose rims are smooth: `strength` in its middle, from 0 to 1.
@@ -129,7 +131,9 @@ class Canvas {
     return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
   }
 
-  static std::size_t crossings_of(std::span<const Point2<double>> corners, double y, std::array<double, 4>& crossings) {
+  template <std::size_t corner_count>
+  static std::size_t crossings_of(const std::array<Point2<double>, corner_count>& corners, double y,
+                                  std::array<double, 4>& crossings) {
     std::size_t count = 0;
     Point2<double> from = corners.back();
     for (const Point2<double> to : corners) {
@@ -186,40 +190,41 @@ class ElementPainter {
 
   template <class Corners>
   void paint(std::size_t element, const Corners& listed) {
-    std::array<Point2<double>, 4> points;
-    const auto count = static_cast<std::size_t>(corner_count(listed));
-    Box box;
-    for (std::size_t i = 0; i < count; ++i) {
-      points[i] = view_.pixel(shades_.point(listed[i]));
-      box.add(points[i]);
-    }
-    if (overlap(box, screen_)) {
-      const double extent = (box.high.x - box.low.x) + (box.high.y - box.low.y);
-      paint(element, std::span<const Point2<double>>(points).first(count), lines_ && extent > faint_edge);
-    }
+    with_kind(listed, [&](const auto& corners) {
+      const auto points = points_of(corners, [this](std::int32_t v) { return view_.pixel(shades_.point(v)); });
+      Box box;
+      for (const Point2<double> point : points) {
+        box.add(point);
+      }
+      if (overlap(box, screen_)) {
+        paint(element, points, box);
+      }
+    });
   }
 
  private:
-  void paint(std::size_t element, std::span<const Point2<double>> points, bool may_have_edges) {
+  template <std::size_t count>
+  void paint(std::size_t element, const std::array<Point2<double>, count>& points, const Box& box) {
     const std::uint8_t shade = shades_.shade(element);
-    fills_.fill(points, shade);
+    fills_.fill(points, box, shade);
     double area = 0;  // twice
     double longest = -1;
-    std::pair<std::size_t, std::size_t> ends;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::size_t next = i + 1 < points.size() ? i + 1 : 0;
-      area += cross(points[i] - points[0], points[next] - points[0]);
-      for (std::size_t j = i + 1; j < points.size(); ++j) {
+    std::pair<Point2<double>, Point2<double>> ends;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i + 1 < count) {
+        area += cross(points[i] - points[0], points[i + 1] - points[0]);
+      }
+      for (std::size_t j = i + 1; j < count; ++j) {
         if (const double length = squared_length(points[j] - points[i]); length > longest) {
           longest = length;
-          ends = {i, j};
+          ends = {points[i], points[j]};
         }
       }
     }
     if (area * area < longest) {  // narrower than a pixel
-      fills_.mark_thin(points[ends.first], points[ends.second], shade);
+      fills_.mark_thin(ends.first, ends.second, shade);
     }
-    if (may_have_edges) {
+    if (lines_ && (box.high.x - box.low.x) + (box.high.y - box.low.y) > faint_edge) {
       draw_edges(points);
     }
   }
