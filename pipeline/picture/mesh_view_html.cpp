@@ -241,7 +241,11 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
   html += "<script type=\"application/json\" id=\"mesh-about\">" +
           about_json(picture, packed, is_large ? window_in_steps(with_room(shades.box()), packed) : Json()) +
           "</script>\n<script type=\"text/plain\" id=\"mesh-data\">" + packed.data + "</script>\n";
-  html += fmt::format("<script>//<![CDATA[\n{}{}//]]></script>\n", viewer_metrics, viewer_script);
+  html += "<script>//<![CDATA[\n'use strict';\n(() => {\n";
+  for (const std::string_view script : viewer_scripts) {
+    html += script;
+  }
+  html += "})();\n//]]></script>\n";
   return html;
 }
 

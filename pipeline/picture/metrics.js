@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The metrics of quality/metrics.h, for the elements of a page: functions of the corners' coordinates, counter-clockwise
 // where the element is valid.
-'use strict';
-
 const meshMetrics = (() => {
   const degrees = 180 / Math.PI;
   const length = (x, y) => Math.sqrt(x * x + y * y);
