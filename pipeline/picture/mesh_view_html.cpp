@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <future>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -66,6 +67,7 @@ Json colours_json() {
   return {{"quality", json_of(quality_colours)},
           {"amount", json_of(amount_colours)},
           {"inverted", json_of(inverted_colour)},
+          {"lacking", json_of(lacking_colour)},
           {"regions", std::move(regions)}};
 }
 
@@ -155,14 +157,18 @@ std::pair<int, int> size_of(const Box& window, double most) {
 }
 
 /// The picture for windows that show no other, for paper, and for what lies behind the elements of a large mesh.
-std::string still(const ElementShades& shades, const MeshLines& lines, bool is_large, std::string_view classes,
-                  std::string_view text, Workers& workers) {
+StillPicture still(const ElementShades& shades, const MeshLines& lines, bool is_large, Workers& workers) {
   StillOptions options;
   options.window = with_room(shades.box());
-  std::tie(options.width, options.height) = size_of(*options.window, is_large ? 2400 : 1200);
+  std::tie(options.width, options.height) = size_of(*options.window, is_large ? 2400 : 1000);
   options.threads = workers.count();
+  return draw_still(shades, &lines, options);
+}
+
+/// It on a page.
+std::string image(std::string_view classes, std::string_view text, const StillPicture& still) {
   return fmt::format("<img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>\n", classes, text,
-                     base64(png_text(draw_still(shades, &lines, options))));
+                     base64(png_text(still, true)));
 }
 
 /// The part of the plane that the picture behind a large mesh shows.
@@ -211,20 +217,28 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
     std::iota(shown.begin(), shown.end(), 0);
   }
   const MeshLines lines = mesh_lines(picture);
+  // Pictures are compressed by another thread, while the mesh is packed.
+  const ElementShades shades(picture, {}, false);
+  std::vector<std::future<std::string>> images;
+  const auto add_image = [&](const ElementShades& of, std::string_view classes, std::string_view text) {
+    images.push_back(std::async(std::launch::async, [classes, text, drawn = still(of, lines, is_large, workers)] {
+      return image(classes, text, drawn);
+    }));
+  };
+  add_image(shades, "view-still",
+            picture.after.empty() ? "The mesh, coloured by shape" : "The mesh after smoothing, coloured by shape");
+  if (is_large && !picture.after.empty()) {
+    add_image(ElementShades(picture, {}, true), "view-still-before", "The mesh before smoothing, coloured by shape");
+  }
   const PackedPicture packed = pack_picture(picture, shown, lines, workers);
+
   std::string html = "<div id=\"mesh-view\">\n" + tools(picture, packed);
   html +=
       "<div class=\"view-stage\" tabindex=\"0\" role=\"application\" aria-label=\"The mesh. Arrows move it, + and - "
       "zoom, "
       "0 shows all of it, space changes between before and after, n and p lead to the worst elements.\">\n";
-  const ElementShades shades(picture, {}, false);
-  html += still(shades, lines, is_large, "view-still",
-                picture.after.empty() ? "The mesh, coloured by shape" : "The mesh after smoothing, coloured by shape",
-                workers);
-  if (is_large && !picture.after.empty()) {
-    const ElementShades before(picture, {}, true);
-    html +=
-        still(before, lines, is_large, "view-still-before", "The mesh before smoothing, coloured by shape", workers);
+  for (std::future<std::string>& made : images) {
+    html += made.get();
   }
   html +=
       "<canvas class=\"view-canvas\"></canvas>\n<div class=\"view-marks\"></div>\n</div>\n"
@@ -238,9 +252,11 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
   html +=
       "</div>\n<div class=\"view-info\" aria-live=\"polite\"><p class=\"soft\">Click an element to see its number, "
       "region and metrics. Drag to move, turn the wheel or pinch to zoom.</p></div>\n</div>\n";
-  html += "<script type=\"application/json\" id=\"mesh-about\">" +
-          about_json(picture, packed, is_large ? window_in_steps(with_room(shades.box()), packed) : Json()) +
-          "</script>\n<script type=\"text/plain\" id=\"mesh-data\">" + packed.data + "</script>\n";
+  html += "<script type=\"application/json\" id=\"mesh-about\">";
+  html += about_json(picture, packed, is_large ? window_in_steps(with_room(shades.box()), packed) : Json());
+  html += "</script>\n<script type=\"text/plain\" id=\"mesh-data\">";
+  html += packed.data;
+  html += "</script>\n";
   html += "<script>//<![CDATA[\n'use strict';\n(() => {\n";
   for (const std::string_view script : viewer_scripts) {
     html += script;

@@ -162,10 +162,13 @@ function movedDistance(e) {
   return most * about.step;
 }
 
-// --- Colours: for each element a byte before and one after; 0 is inverted.
+// --- Colours: for each element a byte before and one after; 0 is inverted, 1 has none of the metric.
+
+const lacking = 1;
+const worstByte = 2;
 
 const placeOnScale = (scale, value) => scale.reciprocal ? scale.ideal / value : (value - scale.worst) / (scale.ideal - scale.worst);
-const byteOf = (place) => place >= 0 ? 1 + Math.round(254 * Math.min(place, 1)) : Number.isNaN(place) ? 1 : 0;
+const byteOf = (place) => place >= 0 ? worstByte + Math.round((255 - worstByte) * Math.min(place, 1)) : Number.isNaN(place) ? lacking : 0;
 
 // Of amounts: the range that most elements are in.
 function amountRange(amount, isLogarithmic) {
@@ -194,7 +197,7 @@ function fillByQuality(bytes, metric) {
     const shape = metric === 'shape' ? null : meshMetrics[kind].shape;
     const scale = about.scales[kind][metric];
     if (!evaluate) {
-      bytes.fill(255, 2 * begin, 2 * end);
+      bytes.fill(lacking, 2 * begin, 2 * end);
       continue;
     }
     const p = scratch;
@@ -218,7 +221,7 @@ function bytesOfElements(metric) {
   let legend = {kind: 'quality', metric};
   let byte;
   if (metric === 'region') {
-    byte = (e) => 1 + (mesh.regions ? mesh.regions[e] % about.colours.regions.length : 0);
+    byte = (e) => worstByte + (mesh.regions ? mesh.regions[e] % about.colours.regions.length : 0);
     legend = {kind: 'region'};
   } else if (metric === 'moved') {
     const [, high] = amountRange((e) => [movedDistance(e)], false);
@@ -229,7 +232,7 @@ function bytesOfElements(metric) {
     const wide = Math.log(high / low) || 1;
     byte = (e, now) => {
       const area = valueOf('area', e, now);
-      return area > 0 ? Math.max(byteOf(Math.log(area / low) / wide), 1) : area < 0 ? 0 : 1;
+      return area > 0 ? Math.max(byteOf(Math.log(area / low) / wide), worstByte) : area < 0 ? 0 : worstByte;
     };
     legend = {kind: 'amount', metric, ends: [low, high], isLogarithmic: true};
   } else {
@@ -256,9 +259,10 @@ function mixed(stops, place) {
 
 function paletteOf(legend) {
   const palette = new Uint8Array(256 * 4).fill(255);
-  const colour = (i) => legend.kind === 'region' ? about.colours.regions[(i + about.colours.regions.length - 1) % about.colours.regions.length]
-    : i === 0 ? about.colours.inverted
-      : mixed(legend.kind === 'amount' ? about.colours.amount : about.colours.quality, (i - 1) / 254);
+  const {regions, inverted, amount, quality} = about.colours;
+  const colour = (i) => legend.kind === 'region' ? regions[Math.max(i - worstByte, 0) % regions.length]
+    : i === 0 ? inverted : i === lacking ? about.colours.lacking
+      : mixed(legend.kind === 'amount' ? amount : quality, (i - worstByte) / (255 - worstByte));
   for (let i = 0; i < 256; ++i) {
     palette.set(colour(i), 4 * i);
   }

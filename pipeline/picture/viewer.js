@@ -347,6 +347,10 @@ function showLegend() {
       textOf('span', `${digits(scale.ideal)}${unit ? ' ' + unit : ''} ideal`));
   }
   place.append(swatch(about.colours.inverted, 'inverted'));
+  const kinds = [['triangle', mesh.triangles], ['quadrilateral', mesh.quads]];
+  for (const [kind] of kinds.filter(([name, count]) => count > 0 && legend.kind === 'quality' && !meshMetrics[name][legend.metric])) {
+    place.append(swatch(about.colours.lacking, `${kind}s have none`));
+  }
 }
 
 function colourBy(metric) {
@@ -496,7 +500,6 @@ async function begin() {
   painter = new Painter(gl, mesh);
   show.isDark = isDark.matches;
   resize();
-  makeMarks();
   makeBackdrop();
   connectPointer();
   connectTools();
@@ -505,8 +508,10 @@ async function begin() {
   fit();
   paint();
   root.classList.add('live');
-  root.dataset.state = 'live';
   root.dataset.firstPicture = Math.round(performance.now());
+  makeMarks();
+  placeMarks();
+  root.dataset.state = 'live';
 }
 
 // For tests, and for those who want to look closer by the browser's console.

@@ -115,7 +115,7 @@ SmoothingResult DocumentMesh::smooth() {
 }
 
 void DocumentMesh::keep_picture() {
-  run_.result.picture = picture_of(run_);
+  trismooth::keep_picture(run_);
 }
 
 void DocumentMesh::write(const std::function<const PipelineResult&()>& completed) {

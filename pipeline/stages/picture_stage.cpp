@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "trismooth/pipeline/picture/mesh_picture.h"
 #include "trismooth/pipeline/stages/run_state.h"
 
 namespace trismooth {
@@ -28,27 +31,31 @@ void name_places(MeshPicture& picture, const std::optional<GeographicMap>& map) 
 
 }  // namespace
 
-std::shared_ptr<const MeshPicture> picture_of(const RunState& run) {
-  const bool is_first = !run.result.picture;
-  auto picture = is_first ? std::make_shared<MeshPicture>() : std::make_shared<MeshPicture>(*run.result.picture);
-  if (!is_first) {
-    picture->after = run.mesh.points;
-    picture->reversed_after = run.found.reversed;
-    picture->worst_after = numbers_of(run.result.after->worst);
-    return picture;
+void keep_picture(RunState& run) {
+  if (!run.picture) {
+    run.picture = std::make_shared<MeshPicture>();
+    MeshPicture& picture = *run.picture;
+    picture.before = run.mesh.points;
+    picture.reversed_before = run.found.reversed;
+    picture.worst_before = numbers_of(run.result.before.worst);
+    picture.elements = OwnElements(run.mesh.elements);
+    picture.numbers = run.mesh.cells;
+    if (run.regions.count() > 1) {
+      picture.regions = run.regions.of_triangle;
+      picture.region_names = run.regions.names;
+    }
+    picture.held = run.found.fixed;
+    name_places(picture, run.mesh.map);
+  } else {
+    constexpr long run_and_result = 2;
+    if (run.picture.use_count() > run_and_result) {
+      run.picture = std::make_shared<MeshPicture>(*run.picture);  // that of another step stays
+    }
+    run.picture->after = run.mesh.points;
+    run.picture->reversed_after = run.found.reversed;
+    run.picture->worst_after = numbers_of(run.result.after->worst);
   }
-  picture->before = run.mesh.points;
-  picture->reversed_before = run.found.reversed;
-  picture->worst_before = numbers_of(run.result.before.worst);
-  picture->elements = OwnElements(run.mesh.elements);
-  picture->numbers = run.mesh.cells;
-  if (run.regions.count() > 1) {
-    picture->regions = run.regions.of_triangle;
-    picture->region_names = run.regions.names;
-  }
-  picture->held = run.found.fixed;
-  name_places(*picture, run.mesh.map);
-  return picture;
+  run.result.picture = run.picture;
 }
 
 }  // namespace trismooth

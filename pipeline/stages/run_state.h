@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "trismooth/base/element_list.h"
@@ -30,6 +31,7 @@ struct RunState : RunContext {
   MeshRings found;
   std::vector<DataArray> stage_arrays;    ///< point arrays for the output, of the program's own stage
   std::vector<std::size_t> fields;        ///< point arrays of the document that follow the mesh
+  std::shared_ptr<MeshPicture> picture;   ///< that the result has, where it is asked for
   std::vector<double> input_points;       ///< for annotations of a smoothing
   std::vector<DataArray> metrics_before;  ///< for annotations of a smoothing
 
