@@ -34,9 +34,12 @@ function extent() {
 }
 
 function resize() {
+  if (stage.clientWidth === 0 || stage.clientHeight === 0) {
+    return false;  // it is hidden, and will be there again
+  }
   view.ratio = Math.min(window.devicePixelRatio || 1, 2);
-  const width = Math.max(Math.round(stage.clientWidth * view.ratio), 1);
-  const height = Math.max(Math.round(stage.clientHeight * view.ratio), 1);
+  const width = Math.round(stage.clientWidth * view.ratio);
+  const height = Math.round(stage.clientHeight * view.ratio);
   if (width === view.width && height === view.height) {
     return false;
   }

@@ -222,6 +222,13 @@ class View(tool.ToolTest):
         self.mouse("mouseMoved", x + 60, y, button="left", buttons=1)
         self.mouse("mouseReleased", x + 60, y, button="left", clickCount=1)
         self.wait_for(lambda now: abs(json.loads(now["view"])["x"] - (near["x"] - 60 / near["zoom"])) < 2)
+        # A page that is hidden and shown again shows what it did.
+        for display in ("none", ""):
+            self.browser.evaluate(f"document.querySelector('main').style.display = '{display}'")
+            time.sleep(0.3)
+        self.assertLess(abs(json.loads(self.state()["view"])["x"] - (near["x"] - 60 / near["zoom"])), 2)
+        self.browser.evaluate("document.querySelector('.view-stage').scrollIntoView({block: 'center'})")
+        self.assertAlmostEqual(json.loads(self.state()["view"])["zoom"] / near["zoom"], 1, delta=1e-6)
         self.press("0", "0")
         self.wait_for(lambda now: abs(json.loads(now["view"])["zoom"] / whole["zoom"] - 1) < 1e-6)
         left, top, width, height = self.box()
