@@ -123,7 +123,8 @@ struct PipelineOptions {
   std::vector<Metric> annotated_metrics{Metric::shape};  ///< those that annotations show
   bool annotated_size_ratio = false;                     ///< they show that one, too
   bool size_ratio = false;                               ///< reports have it, which takes a while
-  bool picture = false;  ///< the result keeps what pictures of the mesh show, for html_report(): 100 bytes a vertex
+  /// The result keeps what pictures of the mesh show, for html_report(): about 100 bytes a vertex.
+  bool picture = false;
   /// A stage of the program's own between reading and smoothing, which has the mesh as OpenMesh halfedges
   /// (halfedge_stage.h): it may hold vertices and give the output arrays. Called once by the topology stage, of every
   /// run of the functions below; what it throws, the run does. The host connects the mesh by halfedges then, whatever
