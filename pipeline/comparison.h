@@ -28,8 +28,8 @@ struct ComparisonResult {
   /// Displacements by the root mean square length of the sides around the vertex in the run's mesh, of corners alone.
   double largest_relative_displacement = 0;
   double mean_relative_displacement = 0;    ///< likewise
-  std::int64_t better_elements = 0;         ///< whose shape is larger in the other mesh; only of those with a corner
-                                            ///< that moved, as the following
+  std::int64_t better_elements = 0;         ///< whose shape is larger in the other mesh, by more than 1e-12; only of
+                                            ///< those with a corner that moved, as the following
   std::int64_t worse_elements = 0;          ///< whose shape is smaller
   std::int64_t newly_invalid_elements = 0;  ///< inverted or degenerate in the other mesh alone
   std::int64_t newly_valid_elements = 0;    ///< inverted or degenerate in the run's mesh alone

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -33,6 +35,11 @@ struct MeshPicture {
 
   /// Where the vertices are now.
   [[nodiscard]] const BulkVector<Point2<double>>& now() const { return after.empty() ? before : after; }
+  /// The place of the element with that number. Complexity: logarithmic.
+  [[nodiscard]] std::size_t place_of(std::int64_t number) const {
+    return numbers.empty() ? static_cast<std::size_t>(number)
+                           : static_cast<std::size_t>(std::ranges::lower_bound(numbers, number) - numbers.begin());
+  }
   /// Which elements are listed clockwise now.
   [[nodiscard]] const std::vector<std::uint8_t>& reversed_now() const {
     return after.empty() ? reversed_before : reversed_after;

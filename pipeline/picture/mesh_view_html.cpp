@@ -251,7 +251,9 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
   }
   html +=
       "</div>\n<div class=\"view-info\" aria-live=\"polite\"><p class=\"soft\">Click an element to see its number, "
-      "region and metrics. Drag to move, turn the wheel or pinch to zoom.</p></div>\n</div>\n";
+      "region and metrics. Drag to move, turn the wheel or pinch to zoom. Red circles are around the worst elements, "
+      "held "
+      "vertices are orange, moves lead from before to after.</p></div>\n</div>\n";
   html += "<script type=\"application/json\" id=\"mesh-about\">";
   html += about_json(picture, packed, is_large ? window_in_steps(with_room(shades.box()), packed) : Json());
   html += "</script>\n<script type=\"text/plain\" id=\"mesh-data\">";

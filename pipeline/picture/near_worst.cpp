@@ -42,12 +42,8 @@ void mark_around(const MeshPicture& picture, std::span<const std::int64_t> numbe
   const ElementList elements = picture.elements.list();
   std::vector<Box> squares;
   for (const std::int64_t number : numbers) {
-    const auto place =
-        picture.numbers.empty()
-            ? static_cast<std::size_t>(number)
-            : static_cast<std::size_t>(std::ranges::lower_bound(picture.numbers, number) - picture.numbers.begin());
     Box box;
-    for (const std::int32_t v : elements[place]) {
+    for (const std::int32_t v : elements[picture.place_of(number)]) {
       marks[v] = 1;
       box.add(points[v]);
     }

@@ -313,8 +313,19 @@ class Packer {
     }
   }
 
-  /// The elements that are seen otherwise in whole steps: their places in the new order, ascending, and the exact steps
-  /// of their corners before and now, as the two halves of doubles.
+  /// One flag an element: it is among the worst of either state.
+  std::vector<std::uint8_t> worst() const {
+    std::vector<std::uint8_t> flags(elements_.size(), 0);
+    for (const auto* const numbers : {&picture_.worst_before, &picture_.worst_after}) {
+      for (const std::int64_t number : *numbers) {
+        flags[picture_.place_of(number)] = 1;
+      }
+    }
+    return flags;
+  }
+
+  /// The worst elements, and those that are seen otherwise in whole steps: their places in the new order, ascending,
+  /// and the exact steps of their corners before and now, as the two halves of doubles.
   void add_exact() {
     // Of shape: what is seen as a colour, and of flat elements as a number.
     constexpr double seen = 0.005;
@@ -329,10 +340,11 @@ class Packer {
       return !(std::abs(is - shown) <= std::min(seen, part_seen * std::abs(is))) || (is > 0) != (shown > 0) ||
              (is < 0) != (shown < 0);
     };
+    const std::vector<std::uint8_t> is_worst = worst();
     std::vector<std::uint32_t> places = joined_lists<std::uint32_t>(
         std::ssize(order_), packing_grain, workers_, [&](std::int64_t i, std::vector<std::uint32_t>& found) {
           const std::span<const std::int32_t> listed = corners_of(packed_[i]);
-          if (differs(listed, before_) || (has_moved() && differs(listed, now_))) {
+          if (is_worst[order_[i]] != 0 || differs(listed, before_) || (has_moved() && differs(listed, now_))) {
             found.push_back(static_cast<std::uint32_t>(i));
           }
         });

@@ -25,8 +25,8 @@ struct PackedStream {
 
 /// A mesh as a page has it. Vertices are in an order of their own, in which those that are near each other in the plane
 /// are near each other, triangles come before quadrilaterals, and corners run counter-clockwise in the picture's now.
-/// Coordinates are whole numbers of steps from the origin; of the elements that are seen otherwise so, the exact ones
-/// are kept beside.
+/// Coordinates are whole numbers of steps from the origin; of the worst elements, and of those that are seen
+/// otherwise so, the exact ones are kept beside.
 struct PackedPicture {
   std::int64_t vertices = 0;
   std::int64_t triangles = 0;

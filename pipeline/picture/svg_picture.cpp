@@ -302,15 +302,20 @@ SvgPicture svg_picture(const ElementShades& shades, const MeshLines& lines, cons
           mark.centre.x, mark.centre.y, mark.radius, css_colour(colour), width);
     }
   }
-  text += "<g stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\" stroke-linejoin=\"round\">\n";
-  for (const SheetText& label : sheet.texts) {
-    text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\"", label.at.x, label.at.y);
-    if (label.anchor != TextAnchor::start) {
-      text += fmt::format(" text-anchor=\"{}\"", anchor_text(label.anchor));
+  // White around the letters first, then the letters: not every program knows the order of strokes.
+  for (const std::string_view group :
+       {"<g aria-hidden=\"true\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\">\n", "<g>\n"}) {
+    text += group;
+    for (const SheetText& label : sheet.texts) {
+      text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\"", label.at.x, label.at.y);
+      if (label.anchor != TextAnchor::start) {
+        text += fmt::format(" text-anchor=\"{}\"", anchor_text(label.anchor));
+      }
+      text += fmt::format(">{}</text>\n", escape_html(label.text));
     }
-    text += fmt::format(">{}</text>\n", escape_html(label.text));
+    text += "</g>\n";
   }
-  text += "</g>\n</svg>\n";
+  text += "</svg>\n";
   return picture;
 }
 

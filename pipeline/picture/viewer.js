@@ -48,10 +48,13 @@ function resize() {
   return true;
 }
 
+// At which a box is as large as the window allows.
+const zoomOf = (box) => Math.min(view.width / (box.highX - box.lowX || 1), view.height / (box.highY - box.lowY || 1));
+
 function lookAt(box, margin) {
   view.x = (box.lowX + box.highX) / 2;
   view.y = (box.lowY + box.highY) / 2;
-  view.zoom = Math.min(view.width / (box.highX - box.lowX || 1), view.height / (box.highY - box.lowY || 1)) / margin;
+  view.zoom = zoomOf(box) / margin;
   ask();
 }
 const fit = () => lookAt(extent(), 1.06);
@@ -61,9 +64,7 @@ const toWindow = (x, y) => [((x - view.x) * view.zoom + view.width / 2) / view.r
 
 function zoomBy(factor, x = stage.clientWidth / 2, y = stage.clientHeight / 2) {
   const [fromX, fromY] = toSteps(x, y);
-  const box = extent();
-  const least = 0.2 * Math.min(view.width / (box.highX - box.lowX || 1), view.height / (box.highY - box.lowY || 1));
-  view.zoom = Math.min(Math.max(view.zoom * factor, least), 400);
+  view.zoom = Math.min(Math.max(view.zoom * factor, 0.2 * zoomOf(extent())), 400);
   const [toX, toY] = toSteps(x, y);
   view.x += fromX - toX;
   view.y += fromY - toY;
@@ -101,6 +102,8 @@ function paint() {
   canvas.style.transform = '';
   painted = {...view};
   placeMarks();
+  // A finger moves the page as long as all of the mesh is there, and the mesh when it is near.
+  stage.style.touchAction = view.zoom > zoomOf(extent()) ? 'none' : 'pan-y';
   root.dataset.frames = Number(root.dataset.frames || 0) + 1;
   root.dataset.frameTime = Math.round(frameTime);
   root.dataset.view = JSON.stringify({x: view.x, y: view.y, zoom: view.zoom, now: view.now});
@@ -248,8 +251,7 @@ function tell(e) {
     info.append(textOf('p', about.backdrop ? 'No element there that can be clicked.' : 'No element there.'));
     return;
   }
-  const now = about.moved ? 1 : 0;
-  const [x, y] = shownPlace(middle(e, now));
+  const [x, y] = shownPlace(middle(e, about.moved && view.now >= 0.5 ? 1 : 0));
   const kind = isTriangle(e) ? 'triangle' : 'quadrilateral';
   const title = textOf('h3', `Element ${mesh.numbers[e]}`);
   const facts = [kind, mesh.regions ? `region ${about.regions[mesh.regions[e]]}` : '', `at ${Number(x.toPrecision(7))}, ${Number(y.toPrecision(7))}`];
@@ -421,13 +423,14 @@ function connectPointer() {
   }, {passive: false});
 }
 
-let nextWorst = 0;
+// To the next one, or the last, from the chosen one on.
 function toWorst(step) {
   const state = about.moved && view.now >= 0.5 ? 'after' : 'before';
   const known = marks.filter((mark) => mark.state === state);
   if (known.length > 0) {
-    nextWorst = (nextWorst + step + known.length) % known.length;
-    zoomTo(known[(nextWorst + known.length - 1) % known.length].e, state === 'after' ? 1 : 0);
+    const at = known.findIndex((mark) => mark.e === chosen);
+    const next = at < 0 ? (step > 0 ? 0 : known.length - 1) : (at + step + known.length) % known.length;
+    zoomTo(known[next].e, state === 'after' ? 1 : 0);
   }
 }
 
@@ -471,7 +474,8 @@ function connectTools() {
       const now = about.moved && button.dataset.state !== 'before' ? 1 : 0;
       setNow(now);
       zoomTo(e, now);
-      root.scrollIntoView({block: 'nearest'});
+      stage.focus({preventScroll: true});
+      stage.scrollIntoView({block: 'center'});
     }
   });
   isDark.addEventListener('change', () => {

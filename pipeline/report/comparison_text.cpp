@@ -48,9 +48,10 @@ std::string areas_text(const PipelineResult& result) {
   for (const RegionArea& area : result.areas) {
     change = std::max(change, std::abs(area.relative_change()));
   }
-  return change == 0 ? std::string("areas are what they were")
-                     : fmt::format("areas{} changed by {:.2g} % at most", result.areas.size() > 1 ? " of regions" : "",
-                                   100 * change);
+  constexpr double rounding = 1e-12;
+  return change <= rounding ? std::string("areas are what they were")
+                            : fmt::format("areas{} changed by {:.2g} % at most",
+                                          result.areas.size() > 1 ? " of regions" : "", 100 * change);
 }
 
 }  // namespace trismooth

@@ -228,8 +228,9 @@ void compare_elements(const MeshView& before, const MeshView& now, std::span<con
       }
       const double was = quotient_at(canonical_corners(listed[e], was_reversed), before.points);
       const double is = quotient_at(canonical_corners(listed[e], is_reversed), now.points);
-      result.better_elements += is > was ? 1 : 0;
-      result.worse_elements += is < was ? 1 : 0;
+      constexpr double rounding = 1e-12;
+      result.better_elements += is > was + rounding ? 1 : 0;
+      result.worse_elements += is < was - rounding ? 1 : 0;
       result.newly_invalid_elements += was > 0 && !(is > 0) ? 1 : 0;
       result.newly_valid_elements += is > 0 && !(was > 0) ? 1 : 0;
     }
