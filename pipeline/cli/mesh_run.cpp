@@ -132,13 +132,34 @@ void require_own_file(const FileBeside& file, const PipelineOptions& options) {
   }
 }
 
-/// Nor another one of them, which is not there yet.
-void require_each_once(std::span<const FileBeside> files) {
+/// Where a file is to be made, behind links that lead to what is not there yet. Empty where there is no such place:
+/// making the file says so.
+std::filesystem::path place_of(const std::filesystem::path& path) {
+  constexpr int most_links = 40;
+  std::error_code error;
+  std::filesystem::path place = std::filesystem::absolute(path, error);
+  for (int links = 0; links < most_links && std::filesystem::is_symlink(place, error); ++links) {
+    place = place.parent_path() / std::filesystem::read_symlink(place, error);
+  }
+  place = std::filesystem::weakly_canonical(place, error);
+  return error ? std::filesystem::path{} : place;
+}
+
+/// Nor another one of them, or a mesh of the run, which are not there yet.
+void require_each_once(std::span<const FileBeside> files, const PipelineOptions& options) {
+  std::vector<std::filesystem::path> meshes = meshes_of_series(options);
+  if (const auto& mesh = options.written(); mesh && !is_standard_stream(*mesh)) {
+    meshes.push_back(*mesh);
+  }
   std::set<std::filesystem::path> places;
   for (const FileBeside& file : files) {
-    std::error_code error;  // where there is no such place, making the file says so
-    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file.path), error);
-    if (!places.insert(place).second && !error) {
+    const std::filesystem::path place = place_of(file.path);
+    for (const std::filesystem::path& mesh : meshes) {
+      if (!place.empty() && place == place_of(mesh)) {
+        throw refusal(file, "is the same file as " + mesh.string());
+      }
+    }
+    if (!place.empty() && !places.insert(place).second) {
       throw refusal(file, "is given twice");
     }
   }
@@ -217,7 +238,7 @@ void try_outputs(const MeshRunSettings& settings, bool over_ranks) {
     }
   }
   const std::vector<FileBeside> beside = files_beside(settings);
-  require_each_once(beside);
+  require_each_once(beside, options);
   for (const FileBeside& file : beside) {
     require_own_file(file, options);
     const OutputFile attempt(file.path);

@@ -116,7 +116,7 @@ const cornersOf = (e) => isTriangle(e)
   : mesh.quadCorners.subarray(4 * (e - mesh.triangles), 4 * (e - mesh.triangles) + 4);
 
 // The corners' places in steps; now: 0 before, 1 after. One that was listed the other way is turned.
-function placesOf(e, now, into) {
+function placesOf(e, now, into, isForValues = false) {
   const {places} = mesh;
   const corners = isTriangle(e) ? mesh.drawn : mesh.quadCorners;
   const first = isTriangle(e) ? 3 * e : 4 * (e - mesh.triangles);
@@ -131,6 +131,10 @@ function placesOf(e, now, into) {
   }
   if (mesh.exact.has(e)) {
     into.set(mesh.exact.get(e)[now]);
+    // Metrics take them as they are: from where whole steps begin, flat elements near the middle would lose digits.
+    for (let i = 0; !isForValues && i < 2 * count; ++i) {
+      into[i] -= about.base[i % 2];
+    }
   }
   if (now === 0 && mesh.turned.has(e)) {
     const last = 2 * (count - 1);
@@ -148,7 +152,7 @@ function valueOf(metric, e, now) {
   if (!evaluate) {
     return NaN;
   }
-  const p = placesOf(e, now, scratch);
+  const p = placesOf(e, now, scratch, true);
   const value = isTriangle(e) ? evaluate(p[0], p[1], p[2], p[3], p[4], p[5])
     : evaluate(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]);
   return metric === 'area' ? value * about.step * about.step : value;
@@ -207,7 +211,7 @@ function fillByQuality(bytes, metric) {
           bytes[2 * e + 1] = bytes[2 * e];
           continue;
         }
-        placesOf(e, now, p);
+        placesOf(e, now, p, true);
         const isInverted = shape !== null && shape(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]) < 0;
         bytes[2 * e + now] = isInverted ? 0 : byteOf(placeOnScale(scale, evaluate(p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7])));
       }

@@ -14,6 +14,7 @@
 #include "trismooth/base/box.h"
 #include "trismooth/base/counting_sort.h"
 #include "trismooth/base/hilbert_curve.h"
+#include "trismooth/base/local_frame.h"
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/pipeline/picture/base64.h"
@@ -34,27 +35,6 @@ constexpr int most_bits = 28;
 std::uint32_t zigzag(std::int64_t number) {
   return static_cast<std::uint32_t>(number < 0 ? -2 * number - 1 : 2 * number);
 }
-
-/// The nearest whole number; of numbers that are not negative. (The library's is a call.)
-double whole(double steps) {
-  return static_cast<double>(static_cast<std::int64_t>(steps + 0.5));
-}
-
-/// The plane in steps from an origin.
-struct Grid {
-  Point2<double> origin;
-  int exponent = 0;  ///< the step is 2^exponent
-
-  /// In steps, not rounded.
-  auto steps() const {
-    // Scaled first, which is exact: a difference may overflow; and so may a factor, of which there are two.
-    const double half = std::ldexp(1.0, -exponent / 2);
-    const double rest = std::ldexp(1.0, -exponent - -exponent / 2);
-    return [half, rest, from = Point2<double>{origin.x * half * rest, origin.y * half * rest}](Point2<double> place) {
-      return Point2<double>{place.x * half * rest - from.x, place.y * half * rest - from.y};
-    };
-  }
-};
 
 class Packer {
  public:
@@ -81,10 +61,10 @@ class Packer {
     std::string deflated;
   };
 
-  /// Of the vertices in their new order, in steps.
+  /// Of the vertices in their new order.
   struct Places {
-    BulkVector<Point2<double>> exact;
-    BulkVector<Point2<double>> whole;
+    BulkVector<Point2<double>> exact;  ///< in the frame, as quality is evaluated, but for the scale
+    BulkVector<Point2<double>> whole;  ///< rounded, from the base on
   };
 
   bool has_moved() const { return !picture_.after.empty(); }
@@ -125,15 +105,16 @@ class Packer {
     if (keyed.empty()) {
       return;
     }
-    grid_.origin = box.low;
-    const double half = std::max(box.high.x / 2 - box.low.x / 2, box.high.y / 2 - box.low.y / 2);
-    extent_exponent_ = half > 0 ? std::ilogb(half) + 2 : 0;  // 2^extent_exponent is above the extent
-    const auto coarse = Grid{box.low, extent_exponent_ - curve_order}.steps();
+    frame_ = local_frame(box.low, box.high);
+    low_ = frame_.enter(box.low);
+    // (The extent is 1 at most there.)
+    constexpr double last_cell = (1 << curve_order) - 1;
     workers_.for_blocks(std::ssize(keyed), packing_grain, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) {
-        const auto [x, y] = coarse(picture_.now()[keyed[i].number]);
-        keyed[i].key = static_cast<std::uint32_t>(
-            hilbert_index(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), curve_order));
+        const Point2<double> from_low = frame_.enter(picture_.now()[keyed[i].number]) - low_;
+        keyed[i].key =
+            static_cast<std::uint32_t>(hilbert_index(static_cast<std::uint32_t>(from_low.x * last_cell),
+                                                     static_cast<std::uint32_t>(from_low.y * last_cell), curve_order));
       }
     });
     radix_sort(keyed, 2 * curve_order, workers_);
@@ -174,26 +155,27 @@ class Packer {
     constexpr std::size_t most_asked = 65536;
     constexpr double steps_of_a_side = 256;
     const std::size_t stride = order_.size() / most_asked + 1;
-    const auto unit = Grid{grid_.origin, extent_exponent_}.steps();
     std::vector<double> shortest;
     for (std::size_t i = 0; i < order_.size(); i += stride) {
       const MixedElement element = corners(order_[i]);
       const std::span<const std::int32_t> listed = corners_of(element);
-      double least = 4;
+      double least = 16;
       for (std::size_t j = 0; j < listed.size(); ++j) {
-        const Point2<double> side = unit(picture_.now()[next_corner(listed, j)]) - unit(picture_.now()[listed[j]]);
+        const Point2<double> side =
+            frame_.enter(picture_.now()[next_corner(listed, j)]) - frame_.enter(picture_.now()[listed[j]]);
         least = std::min(least, squared_length(side));
       }
       shortest.push_back(std::sqrt(least));
     }
-    int bits = fewest_bits;
+    bits_ = fewest_bits;
     if (!shortest.empty()) {
       const auto low = shortest.begin() + std::ssize(shortest) / 100;
       std::ranges::nth_element(shortest, low);
       const double wanted = *low > 0 ? std::log2(steps_of_a_side / *low) : most_bits;
-      bits = static_cast<int>(std::clamp<double>(std::ceil(wanted), fewest_bits, most_bits));
+      bits_ = static_cast<int>(std::clamp<double>(std::ceil(wanted), fewest_bits, most_bits));
     }
-    grid_.exponent = extent_exponent_ - bits;
+    const double steps = std::ldexp(1.0, bits_);
+    base_ = {std::floor(low_.x * steps), std::floor(low_.y * steps)};
   }
 
   void add(std::string name, PackedNumbers numbers) {
@@ -218,14 +200,18 @@ class Packer {
   /// Where vertices are: each as seen from the one before; and where they are now as seen from where they were.
   void add_places() {
     const std::size_t count = vertices_.size();
-    const auto steps = grid_.steps();
+    const double steps = std::ldexp(1.0, bits_);
     const auto keep = [&](Places& places, const BulkVector<Point2<double>>& points) {
       places.exact.resize(count);
       places.whole.resize(count);
       workers_.for_blocks(static_cast<std::int64_t>(count), packing_grain, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
-          places.exact[i] = steps(points[vertices_[i]]);
-          places.whole[i] = {whole(places.exact[i].x), whole(places.exact[i].y)};
+          const Point2<double> local = frame_.enter(points[vertices_[i]]);
+          const Point2<double> exact{local.x * steps, local.y * steps};
+          places.exact[i] = exact;
+          // (Truncated, as none is below 0: the library's rounding is a call.)
+          places.whole[i] = {static_cast<double>(static_cast<std::int64_t>(exact.x - base_.x + 0.5)),
+                             static_cast<double>(static_cast<std::int64_t>(exact.y - base_.y + 0.5))};
         }
       });
     };
@@ -325,7 +311,8 @@ class Packer {
   }
 
   /// The worst elements, and those that are seen otherwise in whole steps: their places in the new order, ascending,
-  /// and the exact steps of their corners before and now, as the two halves of doubles.
+  /// and the exact steps of their corners before and now (not from the base on, which would round them), as the two
+  /// halves of doubles.
   void add_exact() {
     // Of shape: what is seen as a colour, and of flat elements as a number.
     constexpr double seen = 0.005;
@@ -421,8 +408,9 @@ class Packer {
     packed.vertices = std::ssize(vertices_);
     packed.quadrilaterals = quadrilaterals_;
     packed.triangles = std::ssize(order_) - quadrilaterals_;
-    packed.origin = grid_.origin;
-    packed.step = std::ldexp(1.0, grid_.exponent);
+    packed.base = base_;
+    packed.origin = frame_.leave({std::ldexp(base_.x, -bits_), std::ldexp(base_.y, -bits_)});
+    packed.step = std::ldexp(1.0, frame_.exponent - bits_);
     std::string bytes;
     for (Pending& stream : pending_) {
       packed.streams.push_back({std::move(stream.name), stream.count, stream.planes, stream.deflated.size()});
@@ -442,8 +430,10 @@ class Packer {
   BulkVector<std::int32_t> new_of_;    ///< per vertex its place there, or -1
   BulkVector<std::int32_t> order_;     ///< of elements
   std::int64_t quadrilaterals_ = 0;
-  int extent_exponent_ = 0;
-  Grid grid_;
+  LocalFrame frame_;
+  Point2<double> low_{0, 0};   ///< of all vertices shown, in the frame
+  int bits_ = 0;               ///< a step is 2^-bits in the frame
+  Point2<double> base_{0, 0};  ///< where whole steps count from, in steps
   Places before_;
   Places now_;                       ///< none where nothing was smoothed
   BulkVector<MixedElement> packed_;  ///< the elements in their new order, corners in theirs

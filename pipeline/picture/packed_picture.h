@@ -32,6 +32,7 @@ struct PackedPicture {
   std::int64_t triangles = 0;
   std::int64_t quadrilaterals = 0;
   Point2<double> origin;  ///< in the plane
+  Point2<double> base;    ///< the origin in steps as exact places count them
   double step = 1;        ///< a power of 2
   std::vector<PackedStream> streams;
   std::string data;  ///< of all streams, base64

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "trismooth/base/box.h"
+#include "trismooth/base/local_frame.h"
 
 namespace trismooth {
 
@@ -17,19 +18,27 @@ class PlaneView {
         middle_{corner.x + width / 2, corner.y + height / 2} {
     const double x = window.high.x / 2 - window.low.x / 2;
     const double y = window.high.y / 2 - window.low.y / 2;
-    scale_ = x * height > y * width ? width / 2 / x : y > 0 ? height / 2 / y : 1;
+    const double longer = std::max(x, y);
+    if (longer > 0) {
+      exponent_ = local_frame_details::exponent_of(longer);
+      const double x_in_units = in_units(x);
+      const double y_in_units = in_units(y);
+      scale_ = x_in_units * height > y_in_units * width ? width / 2 / x_in_units : height / 2 / y_in_units;
+    }
   }
 
-  /// Pixels for a unit of the file.
-  double scale() const { return scale_; }
   Point2<double> pixel(Point2<double> place) const {
-    return {middle_.x + (place.x - centre_.x) * scale_, middle_.y - (place.y - centre_.y) * scale_};
+    return {middle_.x + in_units(place.x - centre_.x) * scale_, middle_.y - in_units(place.y - centre_.y) * scale_};
   }
 
  private:
+  /// In units of the window's size: a scale for the file's own may be beyond any number.
+  double in_units(double length) const { return local_frame_details::scaled(length, -exponent_); }
+
   Point2<double> centre_;
   Point2<double> middle_;
-  double scale_;
+  int exponent_ = 0;
+  double scale_ = 1;
 };
 
 /// Whether the boxes have a place in common.

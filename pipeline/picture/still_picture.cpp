@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -261,8 +262,12 @@ Box with_room(const Box& elements) {
     return {{0, 0}, {1, 1}};
   }
   constexpr double part = 0.02;
-  const double room = part * std::max(elements.high.x - elements.low.x, elements.high.y - elements.low.y);
-  return {{elements.low.x - room, elements.low.y - room}, {elements.high.x + room, elements.high.y + room}};
+  // (Of halves: the largest meshes are wider than any number.)
+  const double room =
+      2 * part * std::max(elements.high.x / 2 - elements.low.x / 2, elements.high.y / 2 - elements.low.y / 2);
+  constexpr double most = std::numeric_limits<double>::max();
+  return {{std::max(elements.low.x - room, -most), std::max(elements.low.y - room, -most)},
+          {std::min(elements.high.x + room, most), std::min(elements.high.y + room, most)}};
 }
 
 StillPicture draw_still(const MeshPicture& picture, const StillOptions& options) {

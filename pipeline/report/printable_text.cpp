@@ -14,13 +14,14 @@ namespace trismooth {
 namespace {
 
 bool is_harmful(char32_t code) {
-  static constexpr std::array<std::pair<char32_t, char32_t>, 7> ranges{{{0x00, 0x1F},
+  static constexpr std::array<std::pair<char32_t, char32_t>, 8> ranges{{{0x00, 0x1F},
                                                                         {0x7F, 0x9F},
                                                                         {0x061C, 0x061C},
                                                                         {0x200E, 0x200F},
                                                                         {0x2028, 0x2029},
                                                                         {0x202A, 0x202E},
-                                                                        {0x2066, 0x2069}}};
+                                                                        {0x2066, 0x2069},
+                                                                        {0xFFFE, 0xFFFF}}};
   return std::ranges::any_of(ranges, [code](const auto& range) { return range.first <= code && code <= range.second; });
 }
 

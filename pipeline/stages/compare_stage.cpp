@@ -91,6 +91,22 @@ bool lay_into_plane(RunState& run, const MeshDocument& other) {
   return is_same_plane;
 }
 
+/// What --merge joins in the one mesh is one vertex in the other as well, or the two cannot be seen as one.
+void require_joined(const RunState& run) {
+  const PlanarMesh& mesh = run.mesh;
+  std::int64_t apart = 0;
+  for (std::size_t v = 0; v < mesh.merged.size(); ++v) {
+    const Point2<double> way = mesh.points[v] - mesh.points[static_cast<std::size_t>(mesh.merged[v])];
+    apart += std::hypot(way.x, way.y) > *run.options.merge ? 1 : 0;
+  }
+  if (apart > 0) {
+    throw ReadError(
+        shown_input(*run.options.compared),
+        fmt::format("{} that --merge joins in {} further apart here than that; compare without --merge",
+                    counted(apart, "corner", "corners"), apart == 1 ? "the other mesh is" : "the other mesh are"));
+  }
+}
+
 MeshBefore take_place(RunState& run, const MeshDocument& other) {
   PlanarMesh& mesh = run.mesh;
   MeshBefore before{mesh.points, {}, std::move(run.found.reversed)};
@@ -104,6 +120,7 @@ MeshBefore take_place(RunState& run, const MeshDocument& other) {
   } else {
     before.is_seen_alike = lay_into_plane(run, other);
   }
+  require_joined(run);
   before.local = std::exchange(run.local, {});
   run.enter_frame();
   run.found.reversed = mesh.elements.visit([&](const auto& listed) {

@@ -2,6 +2,7 @@
 #include "trismooth/python/view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -18,6 +19,7 @@
 #include "trismooth/base/hold.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/workers.h"
+#include "trismooth/base/triangle_topology.h"
 #include "trismooth/pipeline/picture/mesh_view_html.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/python/errors.h"
@@ -49,10 +51,14 @@ struct Seen {
 
 Seen look_at(const BulkVector<Point2<double>>& points, const ElementList& elements, const Constraints& constraints,
              Workers& workers) {
+  elements.visit([&](const auto& listed) { check_triangles(static_cast<std::int32_t>(points.size()), listed); });
   std::vector<std::uint8_t> is_used(points.size(), 0);
   for (const auto corners : elements) {
     for (const std::int32_t v : corners) {
       is_used[v] = 1;
+      if (!std::isfinite(points[v].x) || !std::isfinite(points[v].y)) {
+        throw MeshError("vertex " + std::to_string(v) + " is not finite");
+      }
     }
   }
   const LocalPoints local = local_points(
@@ -71,6 +77,9 @@ std::string view_page(const std::string& title, const std::optional<Plane>& befo
   const HostArray numbers(triangles_object, "triangles");
   const TriangleArray triangles(numbers);
   const std::size_t count = after.shape(0);
+  if (before && before->shape(0) != count) {
+    throw nb::value_error("points: the result has another number of them than the input");
+  }
   const std::vector<std::uint8_t> fixed = vertex_flags(fixed_object, "fixed", count);
   const int threads = threads_of(threads_object);
   MeshPicture picture;

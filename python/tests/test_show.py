@@ -52,8 +52,8 @@ def test_the_page_has_the_mesh_before_and_after(result):
     assert told["vertices"] == len(result.points)
     assert told["moved"] is True
     # The worst elements are those of the quality of the same points.
-    assert told["worst"]["before"] == [worst.element for worst in trismooth.quality(result.input_points, result.triangles).summary.worst]
-    assert told["worst"]["after"] == [worst.element for worst in trismooth.quality(result.points, result.triangles).summary.worst]
+    assert told["worst"]["before"] == [worst.triangle for worst in trismooth.quality(result.input_points, result.triangles).summary.worst]
+    assert told["worst"]["after"] == [worst.triangle for worst in trismooth.quality(result.points, result.triangles).summary.worst]
 
 
 def test_quadrilaterals_and_triangles_are_told_apart():
@@ -72,8 +72,24 @@ def test_names_of_regions_stay_text(result):
 
 
 def test_labels_that_do_not_fit_are_refused(result):
-    with pytest.raises(ValueError, match=r"regions: 3 labels for \d+ triangles"):
+    with pytest.raises(ValueError, match=r"regions: labels of shape \(3,\) for \d+ triangles"):
         result.view(regions=[1, 2, 3])
+
+
+def test_arrays_that_have_changed_since_are_refused(result):
+    result.triangles = np.array(result.triangles)
+    result.triangles[0, 0] = 2_000_000_000
+    with pytest.raises(trismooth.MeshError, match="2000000000"):
+        result.view()
+    result.triangles[0, 0] = 1
+    result.triangles[0, 1] = 0
+    result.points = np.array(result.points)
+    result.points[0] = np.nan
+    with pytest.raises(trismooth.MeshError, match="vertex 0 is not finite"):
+        result.view()
+    result.points = result.points[:5]
+    with pytest.raises(ValueError, match="another number of them than the input"):
+        result.view()
 
 
 def test_a_script_opens_the_page_in_the_browser(result, monkeypatch):

@@ -82,7 +82,7 @@ def view(result: Result, *, regions: Any = None, fixed: Any = None, title: str =
         raise RuntimeError(NO_FILES)
 
     def plane(points: Any) -> np.ndarray:
-        return np.ascontiguousarray(_on_host(points, "points")[:, :2], dtype=np.float64)
+        return np.array(_on_host(points, "points")[:, :2], dtype=np.float64, order="C")  # a copy: others may write to it
 
     nodes = _on_host(result.triangles, "triangles")
     if len(nodes) == 0:
@@ -90,14 +90,15 @@ def view(result: Result, *, regions: Any = None, fixed: Any = None, title: str =
     corners = nodes[:, :3] if nodes.shape[1] in (3, 6) else _arrays.element_nodes(nodes)[:, :4]
     labels, names = None, []
     if regions is not None:
-        values, labels = np.unique(_on_host(regions, "regions"), return_inverse=True)
+        given = _on_host(regions, "regions")
+        if given.shape != (len(nodes),):
+            raise ValueError(f"regions: labels of shape {given.shape} for {len(nodes)} triangles")
+        values, labels = np.unique(given, return_inverse=True)
         labels = labels.reshape(-1).astype(np.int32)
-        if len(labels) != len(nodes):
-            raise ValueError(f"regions: {len(labels)} labels for {len(nodes)} triangles")
-        names = [str(value) for value in values]
+        names = [str(value).encode("utf-8", "replace").decode("utf-8") for value in values]
     before = None if result.input_points is None else plane(result.input_points)
     html = _core.view_page(
-        title, before, plane(result.points), np.ascontiguousarray(corners), labels, names, fixed, 0 if threads is None else threads
+        str(title).encode("utf-8", "replace").decode("utf-8"), before, plane(result.points), np.ascontiguousarray(corners), labels, names, fixed, 0 if threads is None else threads
     )
     return View(html)
 

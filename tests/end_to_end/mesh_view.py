@@ -228,6 +228,7 @@ class View(tool.ToolTest):
             time.sleep(0.3)
         self.assertLess(abs(json.loads(self.state()["view"])["x"] - (near["x"] - 60 / near["zoom"])), 2)
         self.browser.evaluate("document.querySelector('.view-stage').scrollIntoView({block: 'center'})")
+        self.browser.evaluate("document.querySelector('.view-stage').focus()")
         self.assertAlmostEqual(json.loads(self.state()["view"])["zoom"] / near["zoom"], 1, delta=1e-6)
         self.press("0", "0")
         self.wait_for(lambda now: abs(json.loads(now["view"])["zoom"] / whole["zoom"] - 1) < 1e-6)

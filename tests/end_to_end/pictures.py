@@ -118,6 +118,19 @@ class Pictures(tool.ToolTest):
         self.run_tool("smooth", "missing.off", "out.off", "--picture", "old.svg", expect=None)
         self.assertEqual(self.read("old.svg"), b"old")
 
+    def test_nor_one_that_is_to_be_made(self):
+        for name, options in (("out.vtu", ("--picture", "link.svg")), ("new.svg", ("--format", "off", "--picture", "./new.svg")),
+                              ("page.html", ("--format", "off", "--report", "page.html"))):
+            if not os.path.lexists(self.path("link.svg")):
+                os.symlink("out.vtu", self.path("link.svg"))
+            done = self.run_tool("smooth", "plate.off", name, *options, expect=2)
+            self.assertIn("is the same file as " + name, done.err)
+            self.assertFalse(os.path.exists(self.path(name)))
+        os.symlink("a.png", self.path("b.png"))
+        done = self.run_tool("quality", "plate.off", "--picture", "a.png", "--picture", "b.png", expect=2)
+        self.assertIn("--picture b.png: is given twice", done.err)
+        self.assertFalse(os.path.exists(self.path("a.png")))
+
     def test_all_of_it_is_written_or_nothing(self):
         outcome = self.run_tool("smooth", "square.off", "out.off", "--picture", "nowhere/p.svg", expect=4)
         self.assertIn("nowhere/p.svg", outcome.err)

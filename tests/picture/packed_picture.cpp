@@ -113,7 +113,7 @@ std::map<std::int64_t, Shown> elements_of(const PackedPicture& packed, bool has_
       std::array<double, 2> halves{};
       std::memcpy(halves.data(), s["exactplaces"].data() + at, sizeof halves);
       at += 4;
-      point = place({halves[0], halves[1]});
+      point = place({halves[0] - packed.base.x, halves[1] - packed.base.y});
     }
   };
   for (const std::uint32_t e : s["exact"]) {
@@ -220,6 +220,27 @@ TEST_CASE("an element far flatter than a step is not shown as inverted or flat")
   const auto shown = elements_of(pack_all(picture), false);
   CHECK(shape_of(shown.at(0).now) > 0);
   CHECK(shape_of(shown.at(0).now) < 1e-12);
+}
+
+TEST_CASE("elements far smaller than the rounding of the domain's rim come with their shape") {
+  // Around (0, 0), where coordinates have more digits than from the rim on.
+  MeshPicture picture;
+  constexpr double small = 0x1p-70;
+  picture.before = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {small, 0}, {-small, 0}, {0, small}};
+  picture.elements = std::vector<Triangle>{{4, 6, 5}, {0, 1, 4}, {2, 3, 6}};
+  const PackedPicture packed = pack_all(picture);
+  const std::map<std::string, Numbers> streams = unpacked(packed);
+  REQUIRE(streams.contains("exact"));
+  const Numbers& exact = streams.at("exact");
+  // Metrics take exact corners as they are.
+  std::vector<double> shapes;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    std::array<double, 6> p{};
+    std::memcpy(p.data(), streams.at("exactplaces").data() + 12 * i, sizeof p);
+    shapes.push_back(evaluate(Metric::shape, {p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}));
+  }
+  const double wanted = evaluate(Metric::shape, {1, 0}, {0, 1}, {-1, 0});
+  CHECK(std::ranges::any_of(shapes, [&](double shape) { return std::abs(shape - wanted) < 1e-12; }));
 }
 
 TEST_CASE("the same picture is packed to the same bytes by any number of threads") {

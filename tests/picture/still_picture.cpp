@@ -75,6 +75,22 @@ TEST_CASE("without a window all of the mesh is there, with some room around it")
   CHECK(at(still, 96, 50) != white);
 }
 
+TEST_CASE("meshes of any size are drawn as those of size 1") {
+  StillOptions options = of_square();
+  options.window.reset();
+  const StillPicture expected = draw_still(samples::square(), options);
+  for (const int exponent : {-1000, -600, 600, 1021}) {
+    MeshPicture picture = samples::square();
+    for (Point2<double>& point : picture.before) {
+      // Around 0, so that the largest is wider than any number.
+      point = {std::ldexp(point.x - 1, exponent + 2), std::ldexp(point.y - 1, exponent + 2)};
+    }
+    const bool is_same = draw_still(picture, options).rgb == expected.rgb;
+    CAPTURE(exponent);
+    CHECK(is_same);
+  }
+}
+
 TEST_CASE("an element that is smaller than a pixel, or thinner, is seen, and the worst one wins") {
   MeshPicture picture = samples::square();
   // Above the others: a tiny inverted one, and one as long as the square and a thousandth of a pixel high.

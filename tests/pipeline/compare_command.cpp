@@ -271,7 +271,7 @@ TEST_CASE("elements may be listed in another order and from another corner on") 
   REQUIRE(files.compare("a.off", "b.off").code == 0);
   const json expected = files.report();
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) {
-    std::ranges::rotate(mesh.triangles[t], mesh.triangles[t].begin() + 1);
+    std::rotate(mesh.triangles[t].begin(), mesh.triangles[t].begin() + 1, mesh.triangles[t].end());
     std::ranges::reverse(mesh.triangles[t + 1]);
   }
   files.write("rotated.off", mesh);
@@ -389,6 +389,23 @@ TEST_CASE("a mesh that lies in no plane, that is not there or that is in pieces 
   outcome = files.compare("a.off", "b.pvtu");
   CHECK(outcome.code == 3);
   CHECK(outcome.says("b.pvtu: is a mesh in pieces"));
+}
+
+TEST_CASE("corners that --merge joins in one mesh and the other has apart are refused") {
+  const Files files;
+  // Two squares of two triangles each, which meet in two vertices apiece.
+  Mesh mesh{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 0}, {2, 0}, {2, 1}, {1, 1}},
+            {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}}};
+  files.write("a.vtk", mesh);
+  files.write("same.vtk", mesh);
+  mesh.points[7] = {1.25, 1};
+  files.write("torn.vtk", mesh);
+  CHECK(files.compare("a.vtk", "same.vtk", {"--merge", "1e-9"}).code == 0);
+  const Outcome outcome = files.compare("a.vtk", "torn.vtk", {"--merge", "1e-9"});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.err.find("1 corner that --merge joins in the other mesh is further apart here than that; compare "
+                         "without --merge") != std::string::npos);
+  CHECK(files.compare("a.vtk", "torn.vtk").code == 0);
 }
 
 TEST_CASE("gates are judged on the second mesh") {

@@ -32,7 +32,8 @@ TEST_CASE("text is escaped for content and for attributes") {
         "a\xef\xbf\xbd"
         "b\xef\xbf\xbd");
   // Control characters of two bytes, what turns the direction of the text around it, and bytes that are no UTF-8.
-  for (const std::string bad : {"\xc2\x85", "\xe2\x80\xae", "\xe2\x81\xa6", "\xff", "\x7f", "\r"}) {
+  for (const std::string bad :
+       {"\xc2\x85", "\xe2\x80\xae", "\xe2\x81\xa6", "\xff", "\x7f", "\r", "\xef\xbf\xbe", "\xef\xbf\xbf"}) {
     CHECK(escape_html("a" + bad + "b") ==
           "a\xef\xbf\xbd"
           "b");
