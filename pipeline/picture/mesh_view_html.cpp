@@ -222,9 +222,10 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
   const ElementShades shades(picture, {}, false);
   std::vector<std::future<std::string>> images;
   const auto add_image = [&](const ElementShades& of, std::string_view classes, std::string_view text) {
-    images.push_back(std::async(std::launch::async, [classes, text, drawn = still(of, lines, is_large, workers)] {
-      return image(classes, text, drawn);
-    }));
+    // (Or later by this one, where there can be no other.)
+    images.push_back(std::async(
+        std::launch::async | std::launch::deferred,
+        [classes, text, drawn = still(of, lines, is_large, workers)] { return image(classes, text, drawn); }));
   };
   add_image(shades, "view-still",
             picture.after.empty() ? "The mesh, coloured by shape" : "The mesh after smoothing, coloured by shape");

@@ -304,7 +304,7 @@ std::vector<GrowthCase> file_cases() {
                                 file_case("points of one slot", 100, "stl", "off", &stl_of_one_slot),
                                 file_case("solids", 100, "stl", "vtu", &stl_solids),
                                 file_case("groups and materials", 100, "obj", "vtu", &obj_groups),
-                                told_of("groups that overlap", 300, "vtk", &vtk_overlapping_groups),
+                                told_of("groups that overlap", 1200, "vtk", &vtk_overlapping_groups),
                                 file_case("properties", 100, "ply", "ply", &ply_properties),
                                 file_case("properties", 100, "ply", "vtu", &ply_properties),
                                 file_case("lists", 100, "ply", "vtu", &ply_lists),
