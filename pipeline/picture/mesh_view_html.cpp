@@ -169,7 +169,7 @@ StillPicture still(const ElementShades& shades, const MeshLines& lines, bool is_
 /// It on a page.
 std::string image(std::string_view classes, std::string_view text, const StillPicture& still) {
   return fmt::format("<img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"/>\n", classes, text,
-                     base64(png_text(still, true)));
+                     base64(png_text(still)));
 }
 
 /// The part of the plane that the picture behind a large mesh shows.

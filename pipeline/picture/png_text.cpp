@@ -8,7 +8,7 @@
 
 namespace trismooth {
 
-std::string png_text(const StillPicture& picture, bool soon) {
+std::string png_text(const StillPicture& picture) {
   if (picture.width < 1 || picture.height < 1) {
     throw std::invalid_argument("a picture has at least one pixel");
   }
@@ -17,7 +17,7 @@ std::string png_text(const StillPicture& picture, bool soon) {
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
-  image.flags = soon ? PNG_IMAGE_FLAG_FAST : 0;
+  image.flags = PNG_IMAGE_FLAG_FAST;  // without filters, which make pictures of few colours larger
   std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(image), '\0');
   png_alloc_size_t size = bytes.size();
   constexpr int as_it_is = 0;

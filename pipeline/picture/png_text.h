@@ -8,8 +8,7 @@
 namespace trismooth {
 
 /// The bytes of a PNG file: 8 bits of red, green and blue, sRGB. The same picture gives the same bytes, with the same
-/// libpng and zlib. `soon`: in a fraction of the time, and larger. Throws std::bad_alloc, std::invalid_argument for a
-/// picture without pixels.
-std::string png_text(const StillPicture& picture, bool soon = false);
+/// libpng and zlib. Throws std::bad_alloc, std::invalid_argument for a picture without pixels.
+std::string png_text(const StillPicture& picture);
 
 }  // namespace trismooth
