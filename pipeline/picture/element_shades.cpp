@@ -39,7 +39,7 @@ bool has_metric(Metric metric, ElementKind kind) {
 /// Which shade has the place of a scale from the worst to the best. (Also of what is no number.)
 std::uint8_t shade_at(double place) {
   const double from_best = place > 0 ? 1 - std::min(place, 1.0) : 1.0;
-  return static_cast<std::uint8_t>(ElementShades::first + static_cast<int>(from_best * shade_steps + 0.5));
+  return static_cast<std::uint8_t>(ElementShades::first + static_cast<int>(std::lround(from_best * shade_steps)));
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ ElementShades::ElementShades(const MeshPicture& picture, PictureValue value, boo
   colours_[inverted] = inverted_colour;
   for (int i = 0; i <= shade_steps; ++i) {
     const double part = static_cast<double>(i) / shade_steps;
-    colours_[static_cast<std::size_t>(first + i)] =
+    colours_[static_cast<std::size_t>(first) + static_cast<std::size_t>(i)] =
         value.is_quality()                ? colour_at(quality_colours, 1 - part)
         : value.kind == ShownKind::region ? region_colours[static_cast<std::size_t>(i) % region_colours.size()]
         : value.kind == ShownKind::moved  ? colour_at(amount_colours, part)

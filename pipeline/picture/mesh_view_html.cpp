@@ -182,7 +182,7 @@ Json window_in_steps(const Box& window, const PackedPicture& packed) {
 }
 
 std::string check_box(std::string_view name, std::string_view label) {
-  return fmt::format("<label><input type=\"checkbox\" class=\"view-{}\"/>{}</label>", name, label);
+  return fmt::format(R"(<label><input type="checkbox" class="view-{}"/>{}</label>)", name, label);
 }
 
 std::string tools(const MeshPicture& picture, const PackedPicture& packed) {
@@ -200,7 +200,7 @@ std::string tools(const MeshPicture& picture, const PackedPicture& packed) {
                                            {"fit", "all", "the whole mesh"},
                                            {"worst", "next worst", "the next of the worst elements"},
                                            {"full", "full screen", "on the whole screen"}}) {
-    html += fmt::format("<button type=\"button\" class=\"view-{}\" title=\"{}\">{}</button>", name, title, label);
+    html += fmt::format(R"(<button type="button" class="view-{}" title="{}">{}</button>)", name, title, label);
   }
   return html + "\n</div>\n";
 }
@@ -256,7 +256,7 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
       "region and metrics. Drag to move, turn the wheel or pinch to zoom. Red circles are around the worst elements, "
       "held "
       "vertices are orange, moves lead from before to after.</p></div>\n</div>\n";
-  html += "<script type=\"application/json\" id=\"mesh-about\">";
+  html += R"(<script type="application/json" id="mesh-about">)";
   html += about_json(picture, packed, is_large ? window_in_steps(with_room(shades.box()), packed) : Json());
   html += "</script>\n<script type=\"text/plain\" id=\"mesh-data\">";
   html += packed.data;

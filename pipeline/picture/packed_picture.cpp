@@ -36,6 +36,12 @@ std::uint32_t zigzag(std::int64_t number) {
   return static_cast<std::uint32_t>(number < 0 ? -2 * number - 1 : 2 * number);
 }
 
+/// The nearest whole number of one that is not negative. (The library's function is a call.)
+double whole(double number) {
+  const double half_up = number + 0.5;
+  return static_cast<double>(static_cast<std::int64_t>(half_up));
+}
+
 class Packer {
  public:
   Packer(const MeshPicture& picture, std::span<const std::int32_t> shown, const MeshLines& lines, Workers& workers)
@@ -209,9 +215,7 @@ class Packer {
           const Point2<double> local = frame_.enter(points[vertices_[i]]);
           const Point2<double> exact{local.x * steps, local.y * steps};
           places.exact[i] = exact;
-          // (Truncated, as none is below 0: the library's rounding is a call.)
-          places.whole[i] = {static_cast<double>(static_cast<std::int64_t>(exact.x - base_.x + 0.5)),
-                             static_cast<double>(static_cast<std::int64_t>(exact.y - base_.y + 0.5))};
+          places.whole[i] = {whole(exact.x - base_.x), whole(exact.y - base_.y)};
         }
       });
     };

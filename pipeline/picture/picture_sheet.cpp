@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -241,7 +242,7 @@ double add_close_ups(const ElementShades& shades, int count, double top, Picture
     const Point2<double> mark = view.pixel({box.low.x / 2 + box.high.x / 2, box.low.y / 2 + box.high.y / 2});
     sheet.marks.push_back({mark, mark_radius});
     constexpr double half = close_up_side / 2.0;
-    sheet.marks.push_back({{corner.x + half, corner.y + half}, std::sqrt(2) * half / (2 * around_element)});
+    sheet.marks.push_back({{corner.x + half, corner.y + half}, std::numbers::sqrt2 * half / (2 * around_element)});
     // (Beside the circle, on the side where there is more room.)
     const bool is_right = mark.x > main.corner.x + main.width / 2.0;
     sheet.texts.push_back({{mark.x + (is_right ? -mark_radius - 3 : mark_radius + 3), mark.y + 4},

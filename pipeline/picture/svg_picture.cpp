@@ -263,7 +263,7 @@ std::string swatch_text(const SheetSwatch& swatch, std::size_t number) {
     fill = fmt::format("url(#scale{})", number);
     gradient = fmt::format("<linearGradient id=\"scale{}\">", number);
     for (const ColourStop& stop : swatch.stops) {
-      gradient += fmt::format("<stop offset=\"{}\" stop-color=\"{}\"/>", stop.at, css_colour(stop.colour));
+      gradient += fmt::format(R"(<stop offset="{}" stop-color="{}"/>)", stop.at, css_colour(stop.colour));
     }
     gradient += "</linearGradient>\n";
   }
@@ -307,7 +307,7 @@ SvgPicture svg_picture(const ElementShades& shades, const MeshLines& lines, cons
        {"<g aria-hidden=\"true\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\">\n", "<g>\n"}) {
     text += group;
     for (const SheetText& label : sheet.texts) {
-      text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\"", label.at.x, label.at.y);
+      text += fmt::format(R"(<text x="{:.1f}" y="{:.1f}")", label.at.x, label.at.y);
       if (label.anchor != TextAnchor::start) {
         text += fmt::format(" text-anchor=\"{}\"", anchor_text(label.anchor));
       }

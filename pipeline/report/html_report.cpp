@@ -282,9 +282,9 @@ std::string histogram(const PipelineResult& result) {
 
 /// The number of an element, that leads to it in the view of the mesh.
 std::string element_link(std::int64_t element, std::string_view state) {
-  return state.empty() ? std::to_string(element)
-                       : fmt::format("<button type=\"button\" data-element=\"{0}\" data-state=\"{1}\">{0}</button>",
-                                     element, state);
+  return state.empty()
+             ? std::to_string(element)
+             : fmt::format(R"(<button type="button" data-element="{0}" data-state="{1}">{0}</button>)", element, state);
 }
 
 /// Of a mesh of one region, or none, `names` is empty.

@@ -2,6 +2,7 @@
 #include "trismooth/pipeline/picture/element_shades.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -46,7 +47,7 @@ TEST_CASE("pictures show every metric, regions and ways, and the message for oth
 TEST_CASE("an element's shade is the colour of its place on the scale") {
   const MeshPicture picture = samples::square();
   const ElementShades shades(picture, shown("shape"));
-  const double shape = std::sqrt(3.0) / 2;  // of a right-angled one with two equal sides
+  const double shape = std::numbers::sqrt3 / 2;  // of a right-angled one with two equal sides
   for (std::size_t e = 0; e < 4; ++e) {
     CHECK(shades.value(e) == Approx(shape));
     CHECK(shades.place(e) == Approx(shape));

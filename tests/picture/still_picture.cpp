@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
+#include <random>
 #include <set>
 
 #include "catch.h"
@@ -155,9 +155,9 @@ TEST_CASE("the picture does not depend on the threads") {
   MeshPicture picture;
   constexpr int side = 200;
   std::vector<Triangle> triangles;
-  std::srand(3);
+  std::mt19937 random(3);
   for (int i = 0; i < side * side; ++i) {
-    const auto place = [] { return std::rand() % 1000 / 10.0; };
+    const auto place = [&random] { return static_cast<double>(random() % 1000) / 10; };
     picture.before.push_back({place(), place()});
     if (i % 2 == 0 && i + 2 < side * side) {
       triangles.push_back({i, i + 1, i + 2});
