@@ -49,7 +49,7 @@ class DocumentRun {
 
   PipelineResult run() {
     require_known_formats(run_.options);
-    const std::future<void> starting = start_backend(run_.options);
+    [[maybe_unused]] const std::future<void> starting = start_backend(run_.options);
     stages_.read();
     return finish();
   }
