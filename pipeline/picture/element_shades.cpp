@@ -53,8 +53,7 @@ std::string_view PictureValue::name() const {
     case ShownKind::metric:
       break;
   }
-  const auto& all = metrics_of_any_kind();
-  return (*std::ranges::find_if(all, [this](const MetricInfo* info) { return info->metric == metric; }))->name;
+  return metrics_of_any_kind()[static_cast<std::size_t>(metric)]->name;
 }
 
 PictureValue picture_value_named(std::string_view name) {

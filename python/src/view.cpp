@@ -16,7 +16,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "trismooth/base/hold.h"
 #include "trismooth/base/local_points.h"
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/triangle_topology.h"
