@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "trismooth/base/machine/joined_blocks.h"
+#include "trismooth/base/machine/workers.h"
 #include "trismooth/base/text/suggestion.h"
 #include "trismooth/quality/element.h"
 
@@ -19,6 +21,7 @@ namespace {
 
 constexpr std::string_view region_name = "region";
 constexpr std::string_view moved_name = "moved";
+constexpr std::int64_t looking_grain = 16384;
 constexpr int shade_steps = ElementShades::last - ElementShades::first;
 
 template <class Points>
@@ -78,20 +81,22 @@ PictureValue picture_value_named(std::string_view name) {
                               "; they show " + known + "region or moved");
 }
 
-ElementShades::ElementShades(const MeshPicture& picture, PictureValue value, bool before)
+ElementShades::ElementShades(const MeshPicture& picture, PictureValue value, int threads, bool before)
     : picture_(picture),
       elements_(picture.elements.list()),
       value_(value),
       is_before_(before),
       points_(before ? picture.before : picture.now()),
       reversed_(before ? picture.reversed_before : picture.reversed_now()) {
-  for (const auto corners : elements_) {
-    has_[corners.size() == 3 ? 0 : 1] = true;
-    for (const std::int32_t v : corners) {
-      box_.add(points_[static_cast<std::size_t>(v)]);
-    }
-  }
+  Workers workers(threads);
+  look_at_elements(workers);
   frame_ = local_frame(box_.low, box_.high);
+  local_.resize(points_.size());
+  workers.for_blocks(std::ssize(points_), looking_grain, [this](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      local_[v] = frame_.enter(points_[v]);
+    }
+  });
   unit_ = frame_.length_scale();
   colours_.fill({255, 255, 255});
   colours_[lacking] = lacking_colour;
@@ -123,6 +128,32 @@ ElementShades::ElementShades(const MeshPicture& picture, PictureValue value, boo
                                   metric_names(are_triangles ? ElementKind::triangle : ElementKind::quadrilateral));
     }
   }
+}
+
+void ElementShades::look_at_elements(Workers& workers) {
+  struct Seen {
+    Box box;
+    std::array<bool, 2> has{};
+  };
+  const Seen seen = elements_.visit([&]<class Corners>(std::span<const Corners> elements) {
+    return joined_blocks(
+        std::ssize(elements), looking_grain, workers, Seen{},
+        [&](std::int64_t begin, std::int64_t end, Seen& found) {
+          for (std::int64_t e = begin; e < end; ++e) {
+            const auto corners = static_cast<std::size_t>(corner_count(elements[e]));
+            found.has[corners == 3 ? 0 : 1] = true;
+            for (std::size_t i = 0; i < corners; ++i) {
+              found.box.add(points_[static_cast<std::size_t>(elements[e][i])]);
+            }
+          }
+        },
+        [](Seen& all, const Seen& found) {
+          all.box.add(found.box);
+          all.has = {all.has[0] || found.has[0], all.has[1] || found.has[1]};
+        });
+  });
+  box_ = seen.box;
+  has_ = seen.has;
 }
 
 void ElementShades::measure_area() {
@@ -157,7 +188,7 @@ double ElementShades::amount_place(double value) const {
 template <class Element>
 auto ElementShades::points_of_element(std::size_t number, const Element& corners) const {
   const bool is_reversed = !reversed_.empty() && reversed_[number] != 0;
-  return points_of(canonical_corners(corners, is_reversed), [this](std::int32_t v) { return frame_.enter(point(v)); });
+  return points_of(canonical_corners(corners, is_reversed), local_);
 }
 
 template <class Element>

@@ -16,6 +16,8 @@
 
 namespace trismooth {
 
+class Workers;
+
 /// What the elements of a picture are coloured by.
 enum class ShownKind : std::uint8_t { metric, region, moved };
 
@@ -50,8 +52,8 @@ class ElementShades {
   static constexpr std::uint8_t inverted = 103;  ///< by shape, where a metric is shown
 
   /// Of the mesh as it is now, or as it was before. Complexity: linear. Throws std::invalid_argument where no element
-  /// has the metric, and for ShownKind::moved where nothing was smoothed.
-  ElementShades(const MeshPicture& picture, PictureValue value, bool before = false);
+  /// has the metric, and for ShownKind::moved where nothing was smoothed. `threads`: 0 is all.
+  ElementShades(const MeshPicture& picture, PictureValue value, int threads, bool before = false);
 
   const MeshPicture& picture() const { return picture_; }
   const PictureValue& value_shown() const { return value_; }
@@ -83,6 +85,7 @@ class ElementShades {
   Colour colour(std::uint8_t shade) const { return colours_[shade]; }
 
  private:
+  void look_at_elements(Workers& workers);
   void measure_area();
   void measure_moves();
   template <class Element>
@@ -101,7 +104,8 @@ class ElementShades {
   std::span<const std::uint8_t> reversed_;
   Box box_;
   LocalFrame frame_;
-  double unit_ = 1;  ///< of the frame, for areas in the file's
+  BulkVector<Point2<double>> local_;  ///< points_ in the frame
+  double unit_ = 1;                   ///< of the frame, for areas in the file's
   AmountRange range_;
   std::array<bool, 2> has_{};
   std::array<std::optional<QualityScale>, 2> scales_;  ///< of triangles and of quadrilaterals

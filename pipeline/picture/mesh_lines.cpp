@@ -6,6 +6,9 @@
 #include <numeric>
 #include <span>
 
+#include "trismooth/base/machine/joined_blocks.h"
+#include "trismooth/base/machine/workers.h"
+
 namespace trismooth {
 
 namespace {
@@ -18,11 +21,12 @@ struct Side {
 };
 
 /// The edges between vertices that may be on a line, once for each of their elements.
-std::vector<Side> sides_that_may_be(const MeshPicture& picture) {
-  std::vector<Side> sides;
+std::vector<Side> sides_that_may_be(const MeshPicture& picture, int threads) {
+  Workers workers(threads);
+  constexpr std::int64_t grain = 16384;
   const std::span<const std::uint8_t> held = picture.held;
-  picture.elements.list().visit([&]<class Corners>(std::span<const Corners> elements) {
-    for (std::size_t e = 0; e < elements.size(); ++e) {
+  return picture.elements.list().visit([&]<class Corners>(std::span<const Corners> elements) {
+    return joined_lists<Side>(std::ssize(elements), grain, workers, [&](std::int64_t e, std::vector<Side>& sides) {
       const auto corners = static_cast<std::size_t>(corner_count(elements[e]));
       for (std::size_t i = 0; i < corners; ++i) {
         const std::int32_t from = elements[e][i];
@@ -32,9 +36,8 @@ std::vector<Side> sides_that_may_be(const MeshPicture& picture) {
           sides.push_back({std::min(from, to), std::max(from, to), picture.regions.empty() ? 0 : picture.regions[e]});
         }
       }
-    }
+    });
   });
-  return sides;
 }
 
 /// By their vertices. Those of one vertex are few.
@@ -63,8 +66,8 @@ std::vector<Side> sorted(const std::vector<Side>& sides, std::size_t vertices) {
 
 }  // namespace
 
-MeshLines mesh_lines(const MeshPicture& picture) {
-  const std::vector<Side> sides = sorted(sides_that_may_be(picture), picture.before.size());
+MeshLines mesh_lines(const MeshPicture& picture, int threads) {
+  const std::vector<Side> sides = sorted(sides_that_may_be(picture, threads), picture.before.size());
   MeshLines lines;
   std::size_t end = 0;
   for (std::size_t first = 0; first < sides.size(); first = end) {

@@ -18,8 +18,8 @@ struct MeshLines {
   std::vector<EdgeEnds> interfaces;  ///< of two elements of different regions, and of three elements or more
 };
 
-/// The lines of a picture. Where it says which vertices are held, those of others are on no line. Complexity: linear;
-/// memory for the edges between held vertices alone, and 4 bytes a vertex.
-MeshLines mesh_lines(const MeshPicture& picture);
+/// The lines of a picture. `threads`: 0 is all. Where it says which vertices are held, those of others are on no line.
+/// Complexity: linear; memory for the edges between held vertices alone, and 4 bytes a vertex.
+MeshLines mesh_lines(const MeshPicture& picture, int threads = 1);
 
 }  // namespace trismooth

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <future>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 
 #include "trismooth/base/box.h"
 #include "trismooth/base/machine/workers.h"
+#include "trismooth/pipeline/picture/along_curve.h"
 #include "trismooth/pipeline/picture/base64.h"
 #include "trismooth/pipeline/picture/colours.h"
 #include "trismooth/pipeline/picture/element_shades.h"
@@ -181,6 +183,20 @@ Json window_in_steps(const Box& window, const PackedPicture& packed) {
           {"highY", steps(window.high.y, packed.origin.y)}};
 }
 
+/// Those of the lines that are between vertices of the page, as it counts them.
+MeshLines among(const MeshLines& lines, std::span<const std::int32_t> place_of_vertex) {
+  const auto found = [&](const std::vector<EdgeEnds>& edges) {
+    std::vector<EdgeEnds> there;
+    for (const auto& [from, to] : edges) {
+      if (place_of_vertex[from] >= 0 && place_of_vertex[to] >= 0) {
+        there.push_back({place_of_vertex[from], place_of_vertex[to]});
+      }
+    }
+    return there;
+  };
+  return {found(lines.boundary), found(lines.interfaces)};
+}
+
 std::string check_box(std::string_view name, std::string_view label) {
   return fmt::format(R"(<label><input type="checkbox" class="view-{}"/>{}</label>)", name, label);
 }
@@ -207,7 +223,7 @@ std::string tools(const MeshPicture& picture, const PackedPicture& packed) {
 
 }  // namespace
 
-std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::int64_t most) {
+void add_mesh_view(std::string& html, const MeshPicture& picture, Workers& workers, std::int64_t most) {
   const ElementList elements = picture.elements.list();
   const bool is_large = std::ssize(elements) > most;
   std::vector<std::int32_t> shown;
@@ -217,24 +233,28 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
     shown.resize(elements.size());
     std::iota(shown.begin(), shown.end(), 0);
   }
-  const MeshLines lines = mesh_lines(picture);
+  const OrderedPicture ordered = along_curve(picture, shown, workers);
+  // (What is near each other is drawn sooner one after the other.)
+  const MeshPicture& drawn = is_large ? picture : ordered.mesh;
+  const MeshLines lines = mesh_lines(drawn, workers.count());
+  const ElementShades shades(drawn, {}, workers.count());
   // Pictures are compressed by another thread, while the mesh is packed.
-  const ElementShades shades(picture, {}, false);
   std::vector<std::future<std::string>> images;
   const auto add_image = [&](const ElementShades& of, std::string_view classes, std::string_view text) {
     // (Or later by this one, where there can be no other.)
-    images.push_back(std::async(
-        std::launch::async | std::launch::deferred,
-        [classes, text, drawn = still(of, lines, is_large, workers)] { return image(classes, text, drawn); }));
+    images.push_back(
+        std::async(std::launch::async | std::launch::deferred,
+                   [classes, text, made = still(of, lines, is_large, workers)] { return image(classes, text, made); }));
   };
   add_image(shades, "view-still",
             picture.after.empty() ? "The mesh, coloured by shape" : "The mesh after smoothing, coloured by shape");
   if (is_large && !picture.after.empty()) {
-    add_image(ElementShades(picture, {}, true), "view-still-before", "The mesh before smoothing, coloured by shape");
+    add_image(ElementShades(picture, {}, workers.count(), true), "view-still-before",
+              "The mesh before smoothing, coloured by shape");
   }
-  const PackedPicture packed = pack_picture(picture, shown, lines, workers);
+  const PackedPicture packed = pack_picture(ordered, is_large ? among(lines, ordered.place_of_vertex) : lines, workers);
 
-  std::string html = "<div id=\"mesh-view\">\n" + tools(picture, packed);
+  html += "<div id=\"mesh-view\">\n" + tools(picture, packed);
   html +=
       "<div class=\"view-stage\" tabindex=\"0\" role=\"application\" aria-label=\"The mesh. Arrows move it, + and - "
       "zoom, "
@@ -259,14 +279,21 @@ std::string mesh_view_html(const MeshPicture& picture, Workers& workers, std::in
   html += R"(<script type="application/json" id="mesh-about">)";
   html += about_json(picture, packed, is_large ? window_in_steps(with_room(shades.box()), packed) : Json());
   html += "</script>\n<script type=\"text/plain\" id=\"mesh-data\">";
-  html += packed.data;
+  std::size_t size = 0;
+  for (const PackedStream& stream : packed.streams) {
+    size += stream.text.size();
+  }
+  constexpr std::size_t room = 262'144;  // for what comes behind: the page is large, and is not to be copied
+  html.reserve(html.size() + size + room);
+  for (const PackedStream& stream : packed.streams) {
+    html += stream.text;
+  }
   html += "</script>\n";
   html += "<script>//<![CDATA[\n'use strict';\n(() => {\n";
   for (const std::string_view script : viewer_scripts) {
     html += script;
   }
   html += "})();\n//]]></script>\n";
-  return html;
 }
 
 std::string_view mesh_view_style() {

@@ -42,7 +42,8 @@ async function unpacked() {
   const found = {};
   let at = 0;
   await Promise.all(about.streams.map(async ([name, count, planes, size]) => {
-    const part = bytes.subarray(at, at += size);
+    const part = bytes.subarray(at, at + size);
+    at += 3 * Math.ceil(size / 3);
     found[name] = joined(await inflated(part), count, planes);
   }));
   return found;

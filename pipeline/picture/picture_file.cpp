@@ -102,8 +102,8 @@ Box picture_window(std::string_view text) {
 PictureFile picture_file(const std::filesystem::path& path, const MeshPicture& picture,
                          const PictureFileOptions& options) {
   const Drawer draw = drawer_of(path);
-  const ElementShades shades(picture, options.value);
-  const MeshLines lines = mesh_lines(picture);
+  const ElementShades shades(picture, options.value, options.threads);
+  const MeshLines lines = mesh_lines(picture, options.threads);
   SheetOptions of_sheet{std::nullopt, options.worst};
   if (options.window) {
     of_sheet.window = box_by(picture.place_shown, *options.window);

@@ -298,7 +298,7 @@ PictureSheet picture_sheet(const ElementShades& shades, const SheetOptions& opti
     if (shades.value_shown().is_quality()) {
       bottom = add_close_ups(shades, options.worst, bottom, sheet);
     } else {
-      bottom = add_close_ups(ElementShades(shades.picture(), {}, shades.is_before()), options.worst, bottom, sheet);
+      bottom = add_close_ups(ElementShades(shades.picture(), {}, 1, shades.is_before()), options.worst, bottom, sheet);
     }
   }
   sheet.height = static_cast<int>(bottom) + sheet_pad;

@@ -54,19 +54,49 @@ class Canvas {
 
   const Pixels& bytes() const { return bytes_; }
 
-  /// The pixels whose middle is inside.
+  /// The pixels whose middle is inside. Whether there are any.
   template <std::size_t count>
-  void fill(const std::array<Point2<double>, count>& corners, const Box& box, std::uint8_t value) {
+  bool fill(const std::array<Point2<double>, count>& corners, const Box& box, std::uint8_t value) {
     const int end = pixel_from(box.high.y, height_);
-    for (int row = pixel_from(box.low.y, height_); row < end; ++row) {
+    const int first = pixel_from(box.low.y, height_);
+    const int left = pixel_from(box.low.x, width_);
+    const int columns = pixel_from(box.high.x, width_) - left;
+    if (first == end || columns == 0) {
+      return false;
+    }
+    bool has_any = false;
+    if constexpr (count == 3) {
+      constexpr int few = 4;
+      if (columns * (end - first) <= few) {  // (Sooner asked one by one.)
+        for (int row = first; row < end; ++row) {
+          for (int column = left; column < left + columns; ++column) {
+            if (is_inside(corners, {column + 0.5, row + 0.5})) {
+              raise(at(column, row), value);
+              has_any = true;
+            }
+          }
+        }
+        return has_any;
+      }
+    }
+    for (int row = first; row < end; ++row) {
       std::array<double, 4> crossings{};
       const std::size_t found = crossings_of(corners, row + 0.5, crossings);
       for (std::size_t i = 0; i + 1 < found; i += 2) {
         const int right = pixel_from(crossings[i + 1], width_);
         for (int column = pixel_from(crossings[i], width_); column < right; ++column) {
           raise(at(column, row), value);
+          has_any = true;
         }
       }
+    }
+    return has_any;
+  }
+
+  /// The pixel of that place, if it is on the canvas.
+  void mark(Point2<double> place, std::uint8_t value) {
+    if (place.x >= 0 && place.x < width_ && place.y >= 0 && place.y < height_) {
+      raise(at(static_cast<int>(place.x), static_cast<int>(place.y)), value);
     }
   }
 
@@ -132,6 +162,14 @@ class Canvas {
     return static_cast<int>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
   }
 
+  static bool is_inside(const std::array<Point2<double>, 3>& corners, Point2<double> place) {
+    const auto& [a, b, c] = corners;
+    const double of_a = cross(b - a, place - a);
+    const double of_b = cross(c - b, place - b);
+    const double of_c = cross(a - c, place - c);
+    return (of_a >= 0 && of_b >= 0 && of_c >= 0) || (of_a <= 0 && of_b <= 0 && of_c <= 0);
+  }
+
   template <std::size_t corner_count>
   static std::size_t crossings_of(const std::array<Point2<double>, corner_count>& corners, double y,
                                   std::array<double, 4>& crossings) {
@@ -180,10 +218,10 @@ class Canvas {
 /// Draws one element after the other.
 class ElementPainter {
  public:
-  ElementPainter(const ElementShades& shades, const PlaneView& view, const StillOptions& options, Canvas& fills,
-                 Canvas& edges)
+  ElementPainter(const ElementShades& shades, std::span<const Point2<double>> pixels, const StillOptions& options,
+                 Canvas& fills, Canvas& edges)
       : shades_(shades),
-        view_(view),
+        pixels_(pixels),
         screen_{{0, 0}, {static_cast<double>(options.width), static_cast<double>(options.height)}},
         lines_(options.lines),
         fills_(fills),
@@ -192,7 +230,7 @@ class ElementPainter {
   template <class Corners>
   void paint(std::size_t element, const Corners& listed) {
     with_kind(listed, [&](const auto& corners) {
-      const auto points = points_of(corners, [this](std::int32_t v) { return view_.pixel(shades_.point(v)); });
+      const auto points = points_of(corners, pixels_);
       Box box;
       for (const Point2<double> point : points) {
         box.add(point);
@@ -207,7 +245,7 @@ class ElementPainter {
   template <std::size_t count>
   void paint(std::size_t element, const std::array<Point2<double>, count>& points, const Box& box) {
     const std::uint8_t shade = shades_.shade(element);
-    fills_.fill(points, box, shade);
+    const bool is_seen = fills_.fill(points, box, shade);
     double area = 0;  // twice
     double longest = -1;
     std::pair<Point2<double>, Point2<double>> ends;
@@ -222,7 +260,12 @@ class ElementPainter {
         }
       }
     }
-    if (area * area < longest) {  // narrower than a pixel
+    constexpr double short_one = 2;
+    if (longest < short_one * short_one) {
+      if (!is_seen) {
+        fills_.mark({(ends.first.x + ends.second.x) / 2, (ends.first.y + ends.second.y) / 2}, shade);
+      }
+    } else if (area * area < longest) {  // narrower than a pixel
       fills_.mark_thin(ends.first, ends.second, shade);
     }
     if (lines_ && (box.high.x - box.low.x) + (box.high.y - box.low.y) > faint_edge) {
@@ -248,7 +291,7 @@ class ElementPainter {
   }
 
   const ElementShades& shades_;
-  const PlaneView& view_;
+  std::span<const Point2<double>> pixels_;  ///< of vertices
   Box screen_;
   bool lines_;
   Canvas& fills_;
@@ -271,8 +314,8 @@ Box with_room(const Box& elements) {
 }
 
 StillPicture draw_still(const MeshPicture& picture, const StillOptions& options) {
-  const ElementShades shades(picture, options.value, options.before);
-  const MeshLines lines = options.lines ? mesh_lines(picture) : MeshLines{};
+  const ElementShades shades(picture, options.value, options.threads, options.before);
+  const MeshLines lines = options.lines ? mesh_lines(picture, options.threads) : MeshLines{};
   return draw_still(shades, &lines, options);
 }
 
@@ -283,9 +326,15 @@ StillPicture draw_still(const ElementShades& shades, const MeshLines* lines, con
   Canvas dark(options.lines ? options.width : 0, options.height);
   Workers workers(options.threads);
   constexpr std::int64_t grain = 16384;
+  BulkVector<Point2<double>> pixels(shades.picture().before.size());
+  workers.for_blocks(std::ssize(pixels), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      pixels[v] = view.pixel(shades.point(static_cast<std::int32_t>(v)));
+    }
+  });
   shades.elements().visit([&]<class Corners>(std::span<const Corners> elements) {
     workers.for_blocks(std::ssize(elements), grain, [&](std::int64_t begin, std::int64_t end) {
-      ElementPainter painter(shades, view, options, fills, edges);
+      ElementPainter painter(shades, pixels, options, fills, edges);
       for (auto e = static_cast<std::size_t>(begin); e < static_cast<std::size_t>(end); ++e) {
         painter.paint(e, elements[e]);
       }
@@ -300,7 +349,7 @@ StillPicture draw_still(const ElementShades& shades, const MeshLines* lines, con
   }
   StillPicture still{options.width, options.height, {}};
   still.rgb.resize(3 * fills.bytes().size());
-  for (std::size_t i = 0; i < fills.bytes().size(); ++i) {
+  const auto colour_pixel = [&](std::size_t i) {
     Colour colour = shades.colour(fills.bytes()[i]);
     if (options.lines && edges.bytes()[i] != 0) {
       colour = mixed(colour, edge_colour, edge_strength * edges.bytes()[i] / 255);
@@ -311,7 +360,12 @@ StillPicture draw_still(const ElementShades& shades, const MeshLines* lines, con
     still.rgb[3 * i] = colour.red;
     still.rgb[3 * i + 1] = colour.green;
     still.rgb[3 * i + 2] = colour.blue;
-  }
+  };
+  workers.for_blocks(std::ssize(fills.bytes()), grain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      colour_pixel(i);
+    }
+  });
   return still;
 }
 

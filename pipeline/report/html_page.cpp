@@ -8,16 +8,23 @@
 
 namespace trismooth {
 
-std::string html_page(std::string_view title, std::string_view body, std::string_view more_style) {
-  return fmt::format(
+std::string html_page(std::string_view title, std::string body, std::string_view more_style) {
+  const std::string head = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
-      "<title>{} - trismooth</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-      escape_html(title), html_style, more_style, body);
+      "<title>{} - trismooth</title>\n<style>{}{}</style>\n</head>\n<body>\n<main>\n",
+      escape_html(title), html_style, more_style);
+  body.insert(0, head);  // (Where it is, if it has room: it may be large.)
+  body += "</main>\n</body>\n</html>\n";
+  return body;
 }
 
 std::string html_section(std::string_view title, std::string_view content) {
-  return fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
+  return html_section_begin(title).append(content).append(html_section_end);
+}
+
+std::string html_section_begin(std::string_view title) {
+  return fmt::format("<section>\n<h2>{}</h2>\n", title);
 }
 
 std::string html_cell(std::string_view content, std::string_view classes, std::string_view label) {

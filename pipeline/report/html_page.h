@@ -10,10 +10,14 @@ namespace trismooth {
 /// The pieces that all pages of the program are made of. Arguments are HTML unless they are said to be text.
 
 /// A whole page with the common style sheet (html_style.h) and `more_style` behind it. `title` is text.
-std::string html_page(std::string_view title, std::string_view body, std::string_view more_style = "");
+std::string html_page(std::string_view title, std::string body, std::string_view more_style = "");
 
 /// A part of a page under a heading.
 std::string html_section(std::string_view title, std::string_view content);
+
+/// What is before and behind the content of such a part.
+std::string html_section_begin(std::string_view title);
+inline constexpr std::string_view html_section_end = "</section>\n";
 
 /// A cell of a table, of these classes. In a table of the class "stack", which narrow windows show without its head,
 /// `label` (text) is what the column is called.

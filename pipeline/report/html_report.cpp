@@ -498,7 +498,9 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   }
   if (result.picture && result.before.elements() > 0) {
     Workers workers(options.smoothing.threads);
-    html += html_section("The mesh", mesh_view_html(*result.picture, workers));
+    html += html_section_begin("The mesh");
+    add_mesh_view(html, *result.picture, workers);
+    html += html_section_end;
   } else if (options.picture && result.before.elements() > 0) {
     html += html_section("The mesh",
                          "<p>Of a mesh in pieces no picture is kept; <code>trismooth compare</code> of the input with "
@@ -549,7 +551,9 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
             html_section("Options", options_table(options, *result.smoothing, result.topology)) +
             html_section("Smoothing", outcome_table(result)) + "</div>\n";
   }
-  return html + html_section("Time", timings_table(result.timings_ms)) + footer(result, record);
+  html += html_section("Time", timings_table(result.timings_ms));
+  html += footer(result, record);
+  return html;
 }
 
 }  // namespace

@@ -103,7 +103,9 @@ std::string view_page(const std::string& title, const std::optional<Plane>& befo
       picture.reversed_after = std::move(now.rings.reversed);
       picture.worst_after = std::move(now.worst);
     }
-    return html_page(title, mesh_view_html(picture, workers), mesh_view_style());
+    std::string body;
+    add_mesh_view(body, picture, workers);
+    return html_page(title, std::move(body), mesh_view_style());
   });
 }
 

@@ -13,9 +13,15 @@
 
 namespace trismooth::mesh_view_html_test {
 
-pages::Parsed view_of(const MeshPicture& picture, std::int64_t most = 1000) {
+std::string html_of(const MeshPicture& picture, std::int64_t most = 1000) {
   Workers workers(1);
-  pages::Parsed page = pages::parse("<main>" + mesh_view_html(picture, workers, most) + "</main>");
+  std::string html;
+  add_mesh_view(html, picture, workers, most);
+  return html;
+}
+
+pages::Parsed view_of(const MeshPicture& picture, std::int64_t most = 1000) {
+  pages::Parsed page = pages::parse("<main>" + html_of(picture, most) + "</main>");
   CHECK(page.error.empty());
   return page;
 }
@@ -70,8 +76,7 @@ TEST_CASE("what only one kind of element has, regions and moves are offered wher
 TEST_CASE("names of regions cannot end the text that they are in") {
   MeshPicture picture = samples::mixed();
   picture.region_names = {"</script><script>alert(1)</script>", "a & b ]]> \xff\" \\"};
-  Workers workers(1);
-  const std::string html = mesh_view_html(picture, workers);
+  const std::string html = html_of(picture);
   CHECK(pages::count_of(html, "</script>") == 3);
   CHECK(view_of(picture).count("script") == 3);
   const std::string about = part(view_of(picture), "mesh-about").text;

@@ -101,7 +101,7 @@ TEST_CASE("an element that is smaller than a pixel, or thinner, is seen, and the
   picture.elements.append(Triangle{5, 6, 7});
   picture.elements.append(Triangle{8, 9, 10});
   const StillPicture still = draw_still(picture, of_square());
-  CHECK(at(still, 25, 50) == inverted_colour);
+  CHECK(at(still, 25, 49) == inverted_colour);
   CHECK(at(still, 25, 53) != inverted_colour);
   for (int x = 0; x < 100; ++x) {
     CHECK(at(still, x, 84) == quality_colours.front().colour);

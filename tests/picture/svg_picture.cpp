@@ -53,7 +53,7 @@ std::vector<Points> polygons(const std::string& path) {
 
 SvgPicture draw(const MeshPicture& picture, const SheetOptions& options = {}, const char* value = "shape",
                 std::size_t most = most_elements_of_svg) {
-  const ElementShades shades(picture, picture_value_named(value));
+  const ElementShades shades(picture, picture_value_named(value), 1);
   return svg_picture(shades, mesh_lines(picture), picture_sheet(shades, options), 1, most);
 }
 
