@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +24,7 @@
 #include "trismooth/paper/bench_command.h"
 #include "trismooth/pipeline/cli/command_line.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
+#include "trismooth/pipeline/picture/mesh_picture.h"
 #include "trismooth/pipeline/pipeline.h"
 #include "trismooth/pipeline/report/json_report.h"
 #include "trismooth/python/errors.h"
@@ -33,6 +35,7 @@
 #include "trismooth/python/results.h"
 #include "trismooth/python/text.h"
 #include "trismooth/python/turns.h"
+#include "trismooth/python/view.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -125,6 +128,13 @@ struct FileOutcome {
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   std::vector<std::string> losses;
+  std::shared_ptr<const MeshPicture> picture;  ///< of the mesh before and after a smoothing; else null
+
+  std::string page(const std::string& title, nb::handle threads_object) const {
+    const int threads = threads_of(threads_object);
+    const nb::gil_scoped_release no_gil;
+    return page_of(title, *picture, threads);
+  }
 };
 
 std::optional<FileFormat> format_or_none(nb::handle value) {
@@ -231,6 +241,7 @@ class FileMesh {
     }
     options.smoothing = std::move(call.smoothing);
     options.slide = call.slide;
+    options.picture = true;
     Interruption interruption(progress);
     Interruption* const current = &interruption;
     Interruption::watch(options.smoothing, current);
@@ -319,6 +330,7 @@ class FileMesh {
     outcome.notes = result.notes;
     outcome.warnings = result.warnings;
     outcome.losses = result.losses;
+    outcome.picture = result.picture;
     outcome.outcome.before = result.before;
     outcome.outcome.after = result.after;
     outcome.outcome.smoothing = result.smoothing.value_or(SmoothingResult{});
@@ -363,7 +375,8 @@ void bind_files(nb::module_& module) {
       .def_ro("json", &FileOutcome::json)
       .def_prop_ro("notes", [](const FileOutcome& outcome) { return texts(outcome.notes); })
       .def_prop_ro("warnings", [](const FileOutcome& outcome) { return texts(outcome.warnings); })
-      .def_prop_ro("losses", [](const FileOutcome& outcome) { return texts(outcome.losses); });
+      .def_prop_ro("losses", [](const FileOutcome& outcome) { return texts(outcome.losses); })
+      .def("page", &FileOutcome::page, "title"_a, "threads"_a);
   nb::class_<FileMesh>(module, "FileMesh")
       .def(nb::init<std::filesystem::path, nb::handle, nb::handle>(), "path"_a, "format"_a.none(), "threads"_a.none())
       .def_prop_rw("points", &FileMesh::points, &FileMesh::set_points)

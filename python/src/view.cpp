@@ -103,13 +103,18 @@ std::string view_page(const std::string& title, const std::optional<Plane>& befo
       picture.reversed_after = std::move(now.rings.reversed);
       picture.worst_after = std::move(now.worst);
     }
-    std::string body;
-    add_mesh_view(body, picture, workers);
-    return html_page(title, std::move(body), mesh_view_style());
+    return page_of(title, picture, threads);
   });
 }
 
 }  // namespace
+
+std::string page_of(const std::string& title, const MeshPicture& picture, int threads) {
+  Workers workers(threads);
+  std::string body;
+  add_mesh_view(body, picture, workers);
+  return html_page(title, std::move(body), mesh_view_style());
+}
 
 void bind_view(nb::module_& module) {
   module.def("view_page", &view_page, "title"_a, "before"_a.none(), "after"_a, "triangles"_a, "regions"_a.none(),

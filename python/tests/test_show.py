@@ -122,3 +122,38 @@ def test_a_notebook_frames_the_page(result):
 def test_the_page_is_saved(result, tmp_path):
     path = result.view(title="My mesh").save(tmp_path / "mesh.html")
     assert "<title>My mesh - trismooth</title>" in path.read_text(encoding="utf-8")
+
+
+def test_a_mesh_of_a_file_is_shown_before_and_after_with_its_regions_and_holds(tmp_path):
+    points, triangles = square()
+    labels = np.where(points[triangles].mean(axis=1)[:, 0] < 3, 7, 9)
+    file = tmp_path / "a.vtk"
+    with open(file, "w", encoding="ascii") as text:
+        text.write(f"# vtk DataFile Version 3.0\nm\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(points)} double\n")
+        np.savetxt(text, np.pad(points, ((0, 0), (0, 1))))
+        text.write(f"CELLS {len(triangles)} {4 * len(triangles)}\n")
+        np.savetxt(text, np.pad(triangles, ((0, 0), (1, 0)), constant_values=3), fmt="%d")
+        text.write(f"CELL_TYPES {len(triangles)}\n" + "5\n" * len(triangles))
+        text.write(f"CELL_DATA {len(triangles)}\nSCALARS material int 1\nLOOKUP_TABLE default\n")
+        np.savetxt(text, labels, fmt="%d")
+    mesh = trismooth.read(file)
+    before = mesh.quality()
+    result = mesh.smooth()
+    told = about(result.view().html)
+    assert told["moved"] is True
+    assert [name.split("=")[-1].split()[-1] for name in told["regions"]] == ["7", "9"]
+    assert told["worst"]["before"] == [worst.triangle for worst in before.worst]
+    streams = {name: count for name, count, _, _ in told["streams"]}
+    assert streams["interface"] == 2 * 6  # the vertices of six edges
+    assert streams["held"] == len(points)
+    # Other regions than the file's are the user's.
+    with pytest.warns(UserWarning, match="as it is now alone: it was smoothed in place"):
+        told = about(result.view(regions=np.arange(len(triangles)) % 3).html)
+    assert told["regions"] == ["0", "1", "2"]
+
+
+def test_the_view_of_a_mesh_that_was_smoothed_in_place_says_that_it_has_no_before():
+    points, triangles = square()
+    result = trismooth.smooth(points, triangles, out=points)
+    with pytest.warns(UserWarning, match="as it is now alone: it was smoothed in place"):
+        assert about(result.view().html)["moved"] is False

@@ -37,7 +37,7 @@ class FileResult(Result):
         Those of the notes that the program calls warnings, and those of point arrays that could not follow the mesh.
     """
 
-    __slots__ = ("report", "warnings", "losses")
+    __slots__ = ("report", "warnings", "losses", "_of_file")
 
     def __init__(self, outcome: Any, mesh: Mesh, report: Dict[str, Any]) -> None:
         kinds = [mesh.triangles, mesh.quadratic_triangles]
@@ -46,9 +46,18 @@ class FileResult(Result):
         super().__init__(outcome.outcome, mesh.points, _in_one_array([nodes for nodes in kinds if len(nodes) > 0]))
         self.mesh = mesh
         self.report = report
+        self._of_file = outcome
         self.notes = _said(outcome)
         self.warnings: List[str] = [in_python(warning) for warning in outcome.warnings]
         self.losses: List[str] = [in_python(loss) for loss in outcome.losses]
+
+
+    def _page(self, title: str, regions: Any, fixed: Any, threads: int) -> str:
+        """What the program shows: also the mesh before, its regions, and what held vertices."""
+        if regions is None and fixed is None:
+            page: str = self._of_file.page(title, threads)
+            return page
+        return super()._page(title, regions, fixed, threads)
 
 
 def _in_one_array(kinds: List[np.ndarray]) -> np.ndarray:

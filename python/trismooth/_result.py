@@ -331,8 +331,9 @@ class Result:
 
         It is the view of the program's HTML report: elements are clicked for their metrics, a slider leads from before
         to after, held vertices and moves are switched on. It needs no network. Where the input points are not there, as
-        of a mesh that was smoothed in place, there is only one state. ``view().html`` is the page, ``view().save(file)``
-        writes it.
+        of a mesh that was smoothed in place, there is only one state, and a warning; of a mesh that was read from a file
+        both are there, with its regions and what held its vertices, unless others are given. ``view().html`` is the
+        page, ``view().save(file)`` writes it.
 
         Parameters
         ----------
@@ -353,6 +354,11 @@ class Result:
         from ._show import view
 
         return view(self, **options)
+
+    def _page(self, title: str, regions: Any, fixed: Any, threads: int) -> str:
+        from ._show import page_of_arrays
+
+        return page_of_arrays(self, title, regions, fixed, threads)
 
     def show(self, **options: Any) -> Optional[View]:
         """Shows the mesh before and after: in Jupyter as the value of a cell, elsewhere in the browser.

@@ -75,11 +75,17 @@ def _in_notebook() -> bool:
 
 def view(result: Result, *, regions: Any = None, fixed: Any = None, title: str = "Mesh", threads: Optional[int] = None) -> View:
     """Make the page that shows the mesh before and after. See :meth:`trismooth.Result.show`."""
-    from ._plot import _on_host
     from ._support import NO_FILES
 
     if not _core.has_files:
         raise RuntimeError(NO_FILES)
+    text = str(title).encode("utf-8", "replace").decode("utf-8")
+    return View(result._page(text, regions, fixed, 0 if threads is None else threads))
+
+
+def page_of_arrays(result: Result, title: str, regions: Any, fixed: Any, threads: int) -> str:
+    """The page of what a result has, its points and elements."""
+    from ._plot import _on_host
 
     def plane(points: Any) -> np.ndarray:
         return np.array(_on_host(points, "points")[:, :2], dtype=np.float64, order="C")  # a copy: others may write to it
@@ -97,10 +103,9 @@ def view(result: Result, *, regions: Any = None, fixed: Any = None, title: str =
         labels = labels.reshape(-1).astype(np.int32)
         names = [str(value).encode("utf-8", "replace").decode("utf-8") for value in values]
     before = None if result.input_points is None else plane(result.input_points)
-    html = _core.view_page(
-        str(title).encode("utf-8", "replace").decode("utf-8"), before, plane(result.points), np.ascontiguousarray(corners), labels, names, fixed, 0 if threads is None else threads
-    )
-    return View(html)
+    if before is None and result.moved > 0:
+        warnings.warn("the view shows the mesh as it is now alone: it was smoothed in place", stacklevel=5)
+    return _core.view_page(title, before, plane(result.points), np.ascontiguousarray(corners), labels, names, fixed, threads)
 
 
 def show(result: Result, **options: Any) -> Optional[View]:
