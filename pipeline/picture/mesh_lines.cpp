@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <span>
 
+#include "trismooth/base/counting_sort.h"
 #include "trismooth/base/machine/joined_blocks.h"
 #include "trismooth/base/machine/workers.h"
 
@@ -21,8 +21,7 @@ struct Side {
 };
 
 /// The edges between vertices that may be on a line, once for each of their elements.
-std::vector<Side> sides_that_may_be(const MeshPicture& picture, int threads) {
-  Workers workers(threads);
+std::vector<Side> sides_that_may_be(const MeshPicture& picture, Workers& workers) {
   constexpr std::int64_t grain = 16384;
   const std::span<const std::uint8_t> held = picture.held;
   return picture.elements.list().visit([&]<class Corners>(std::span<const Corners> elements) {
@@ -41,25 +40,14 @@ std::vector<Side> sides_that_may_be(const MeshPicture& picture, int threads) {
 }
 
 /// By their vertices. Those of one vertex are few.
-std::vector<Side> sorted(const std::vector<Side>& sides, std::size_t vertices) {
-  std::vector<std::int32_t> places(vertices + 1);
-  for (const Side& side : sides) {
-    ++places[static_cast<std::size_t>(side.low) + 1];
-  }
-  std::partial_sum(places.begin(), places.end(), places.begin());
+std::vector<Side> sorted(const std::vector<Side>& sides, std::size_t vertices, Workers& workers) {
   std::vector<Side> by_low(sides.size());
-  for (const Side& side : sides) {
-    by_low[static_cast<std::size_t>(places[static_cast<std::size_t>(side.low)]++)] = side;
-  }
-  std::size_t first = 0;
-  while (first < by_low.size()) {
-    std::size_t end = first;
-    while (end < by_low.size() && by_low[end].low == by_low[first].low) {
-      ++end;
-    }
-    std::sort(by_low.begin() + static_cast<std::ptrdiff_t>(first), by_low.begin() + static_cast<std::ptrdiff_t>(end),
+  const std::vector<std::int64_t> begins = counting_sort(
+      std::ssize(sides), static_cast<std::int64_t>(vertices), [&](std::int64_t i) { return sides[i].low; },
+      [&](std::int64_t i, std::int64_t place) { by_low[place] = sides[i]; }, workers);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    std::sort(by_low.begin() + begins[v], by_low.begin() + begins[v + 1],
               [](const Side& a, const Side& b) { return a.high < b.high; });
-    first = end;
   }
   return by_low;
 }
@@ -67,7 +55,8 @@ std::vector<Side> sorted(const std::vector<Side>& sides, std::size_t vertices) {
 }  // namespace
 
 MeshLines mesh_lines(const MeshPicture& picture, int threads) {
-  const std::vector<Side> sides = sorted(sides_that_may_be(picture, threads), picture.before.size());
+  Workers workers(threads);
+  const std::vector<Side> sides = sorted(sides_that_may_be(picture, workers), picture.before.size(), workers);
   MeshLines lines;
   std::size_t end = 0;
   for (std::size_t first = 0; first < sides.size(); first = end) {

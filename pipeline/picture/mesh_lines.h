@@ -19,7 +19,7 @@ struct MeshLines {
 };
 
 /// The lines of a picture. `threads`: 0 is all. Where it says which vertices are held, those of others are on no line.
-/// Complexity: linear; memory for the edges between held vertices alone, and 4 bytes a vertex.
+/// Complexity: linear; memory for the edges between held vertices alone, and 16 bytes a vertex.
 MeshLines mesh_lines(const MeshPicture& picture, int threads = 1);
 
 }  // namespace trismooth

@@ -496,6 +496,9 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   if (result.before.elements() > 0) {
     html += cards(result);
   }
+  if (!result.warnings.empty()) {
+    html += html_section("Warnings", html_list(result.warnings));
+  }
   if (result.picture && result.before.elements() > 0) {
     Workers workers(options.smoothing.threads);
     html += html_section_begin("The mesh");
@@ -536,9 +539,6 @@ std::string body(const PipelineOptions& options, const PipelineResult& result, c
   }
   if (!result.before.worst.empty()) {
     html += html_section("Worst elements", worst_tables(result));
-  }
-  if (!result.warnings.empty()) {
-    html += html_section("Warnings", html_list(result.warnings));
   }
   if (!result.losses.empty()) {
     html += html_section("Not kept", html_list(result.losses));
