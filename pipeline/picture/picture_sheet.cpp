@@ -132,7 +132,7 @@ double add_legend(const ElementShades& shades, double top, PictureSheet& sheet) 
                             {},
                             value.is_quality() ? std::span<const ColourStop>(quality_colours) : amount_colours});
   constexpr int most_labels = 4;
-  constexpr std::size_t longest_label = 6;
+  constexpr std::size_t longest_label = 5;
   const bool are_short =
       label_at(shades, 0.25).size() <= longest_label && label_at(shades, 0.75).size() <= longest_label;
   const int labels = are_short ? most_labels : most_labels / 2;
