@@ -34,7 +34,8 @@ std::uint32_t zigzag(std::int64_t number) {
 
 /// The nearest whole number of one that is not negative. (The library's function is a call.)
 std::int32_t nearest(double number) {
-  return static_cast<std::int32_t>(number + 0.5);
+  const double half_up = number + 0.5;
+  return static_cast<std::int32_t>(half_up);
 }
 
 /// Deflates planes of bytes one behind the other, in as little time as it takes. Nothing repeats in them but runs,
