@@ -13,7 +13,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config python3
   libvtk9-dev libopenmesh-dev libeigen3-dev libtbb-dev
-  libfmt-dev libcli11-dev nlohmann-json3-dev libexpat1-dev libxxhash-dev libpng-dev zlib1g-dev
+  libfmt-dev libcli11-dev nlohmann-json3-dev libexpat1-dev libhdf5-dev libxxhash-dev libpng-dev zlib1g-dev
   libopenmpi-dev openmpi-bin libmetis-dev
   catch2
 )
