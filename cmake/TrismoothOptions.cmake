@@ -53,11 +53,13 @@ trismooth_part(TRISMOOTH_VTK ${files_by_default} "Have mesh_io read and write .v
                TRISMOOTH_MESH_IO)
 if(TRISMOOTH_MESH_IO)
   find_package(HDF5Serial 1.10 QUIET)
+  find_package(EXPAT QUIET GLOBAL)
 endif()
-if(HDF5Serial_FOUND)
-  trismooth_part(TRISMOOTH_HDF5 ${files_by_default} "Have mesh_io read and write formats that are kept in HDF5" TRISMOOTH_MESH_IO)
+if(HDF5Serial_FOUND AND EXPAT_FOUND)
+  trismooth_part(TRISMOOTH_HDF5 ${files_by_default} "Have mesh_io read and write formats that are kept in HDF5 (needs HDF5 and Expat)"
+                 TRISMOOTH_MESH_IO)
 else()
-  option(TRISMOOTH_HDF5 "Have mesh_io read and write formats that are kept in HDF5" OFF)
+  option(TRISMOOTH_HDF5 "Have mesh_io read and write formats that are kept in HDF5 (needs HDF5 and Expat)" OFF)
 endif()
 trismooth_part(TRISMOOTH_HALFEDGE ${files_by_default} "Build the component halfedge: OpenMesh meshes (needs OpenMesh and Eigen)")
 trismooth_part(TRISMOOTH_PIPELINE ${files_by_default} "Build the component pipeline: from file to file (needs fmt, xxHash, nlohmann_json and Eigen)"

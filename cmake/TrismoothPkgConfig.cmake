@@ -35,8 +35,10 @@ trismooth_pkg_config(smoothing "Smart Laplacian smoothing of planar finite eleme
 if(TRISMOOTH_MESH_IO)
   set(requires zlib)
   set(libraries)
-  if(TRISMOOTH_VTK)
+  if(TRISMOOTH_VTK OR TRISMOOTH_HDF5)
     list(APPEND requires expat)
+  endif()
+  if(TRISMOOTH_VTK)
     get_target_property(linked trismooth_mesh_io LINK_LIBRARIES)
     foreach(library IN LISTS linked)
       # VTK::IOXML is the file libvtkIOXML-9.1.so.

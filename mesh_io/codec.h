@@ -36,6 +36,11 @@ struct Codec {
   /// names neither. Null for other formats.
   std::filesystem::path (*partner_of)(const std::filesystem::path& path) = nullptr;
 
+  /// Of formats whose meshes may be several files: those that write() writes besides the one that is to be called
+  /// `path`, to where OutputFile::place_of() says. Null for other formats. (OriginalFile::other_files() is the same of
+  /// what is written back.)
+  std::vector<std::filesystem::path> (*other_files_of)(const std::filesystem::path& path) = nullptr;
+
   /// read_shared() on this thread alone.
   MeshDocument read(const std::filesystem::path& path, FileBytes bytes) const {
     Workers alone(1);
@@ -53,13 +58,13 @@ struct Codec {
 /// VTK) have a description and no functions.
 extern const Codec off_codec, obj_codec, ply_codec, stl_codec, vtk_legacy_codec, vtu_codec, vtp_codec, msh_codec,
     medit_codec, su2_codec, inp_codec, adcirc_codec, sms_codec, freefem_codec, mfem_codec, triangle_codec,
-    nastran_codec, unv_codec;
+    nastran_codec, unv_codec, xdmf_codec;
 
 /// In the order of FileFormat.
 inline constexpr std::array all_codecs{&off_codec,      &obj_codec,     &ply_codec, &stl_codec,     &vtk_legacy_codec,
                                        &vtu_codec,      &vtp_codec,     &msh_codec, &medit_codec,   &su2_codec,
                                        &inp_codec,      &adcirc_codec,  &sms_codec, &freefem_codec, &mfem_codec,
-                                       &triangle_codec, &nastran_codec, &unv_codec};
+                                       &triangle_codec, &nastran_codec, &unv_codec, &xdmf_codec};
 
 constexpr const Codec& codec_of(FileFormat format) {
   return *all_codecs[static_cast<std::size_t>(format)];

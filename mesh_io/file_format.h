@@ -30,7 +30,8 @@ enum class FileFormat : std::uint8_t {
   mfem,
   triangle,
   nastran,
-  unv
+  unv,
+  xdmf
 };
 
 /// The format's short name in options, reports and JSON: "off", "obj", ...

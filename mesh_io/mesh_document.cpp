@@ -101,6 +101,10 @@ void require_sound(const MeshDocument& document) {
   }
 }
 
+std::vector<std::filesystem::path> OriginalFile::other_files(const std::filesystem::path& /*path*/) const {
+  return {};
+}
+
 bool OriginalFile::keeps_values_of(std::string_view /*point_array*/) const {
   return false;
 }

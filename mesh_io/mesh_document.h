@@ -44,6 +44,9 @@ class OriginalFile {
   /// read; else it writes those that were read. Only arrays of floating point.
   virtual bool keeps_values_of(std::string_view point_array) const;
 
+  /// The files that write() writes besides the one that is to be called `path`, to where OutputFile::place_of() says.
+  virtual std::vector<std::filesystem::path> other_files(const std::filesystem::path& path) const;
+
   /// Whether write() can add arrays.
   virtual bool takes_added_arrays() const { return false; }
 

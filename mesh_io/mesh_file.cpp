@@ -197,9 +197,18 @@ WrittenAside write_mesh_aside(const std::filesystem::path& path, const MeshDocum
     require_rows(name, arrays, document.cells.size(), "cells");
   }
   const auto write = [&](const std::filesystem::path& plain) { write_plain(plain, format, document, added, workers); };
-  const auto partner_of = codec_of(format).partner_of;
-  return partner_of != nullptr ? write_two_files_aside(path, partner_of, write)
-                               : write_content_aside(path, FileWorkers(workers), write);
+  const Codec& codec = codec_of(format);
+  if (codec.partner_of != nullptr) {
+    return write_two_files_aside(path, codec.partner_of, write);
+  }
+  std::vector<std::filesystem::path> others;
+  if (is_written_back(document, format)) {
+    others = document.original->other_files(path);
+  } else if (codec.other_files_of != nullptr) {
+    others = codec.other_files_of(path);
+  }
+  return others.empty() ? write_content_aside(path, FileWorkers(workers), write)
+                        : write_files_aside(path, others, write);
 }
 
 void write_mesh(const std::filesystem::path& path, const MeshDocument& document, const AddedArrays& added,

@@ -24,7 +24,6 @@ struct ExtensionOfUnread {
 
 constexpr UnreadFormat exodus{"Exodus II", "meshio convert in.exo out.vtu"};
 constexpr UnreadFormat fluent{"Ansys Fluent", "meshio convert --input-format ansys in.msh out.vtu"};
-constexpr UnreadFormat xdmf{"XDMF", "meshio convert in.xdmf out.vtu"};
 constexpr UnreadFormat netgen{"Netgen", "meshio convert in.vol out.vtu"};
 constexpr UnreadFormat netcdf{"NetCDF (as Exodus II, UGRID and models of the ocean have it)", exodus.converter};
 constexpr UnreadFormat selafin{"Selafin (Telemac)", ""};
@@ -39,8 +38,6 @@ constexpr auto by_extension = std::to_array<ExtensionOfUnread>({
     {".g", exodus},
     {".cgns", {"CGNS", "gmsh in.cgns -save -o out.msh' or 'meshio convert in.cgns out.vtu"}},
     {".med", {"MED (Salome)", "gmsh in.med -save -o out.msh' or 'meshio convert in.med out.vtu"}},
-    {".xdmf", xdmf},
-    {".xmf", xdmf},
     {".cdb", {"an Ansys archive (CDB)", ""}},
     {".vol", netgen},
     {".h5", {"HDF5", ""}},
@@ -133,9 +130,6 @@ std::optional<UnreadFormat> recognise_unread_format(std::string_view bytes) {
   }
   if (head.substr(0, 1024).find("MSHID=") != head.npos) {
     return jigsaw;
-  }
-  if (head.substr(0, 1024).find("<Xdmf") != head.npos) {
-    return xdmf;
   }
   if (begins_as_fluent(head)) {
     return fluent;

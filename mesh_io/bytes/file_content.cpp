@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <new>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -127,32 +128,65 @@ WrittenAside write_content_aside(const std::filesystem::path& path, const FileWo
   return WrittenAside(std::move(files));
 }
 
-WrittenAside write_two_files_aside(const std::filesystem::path& path,
-                                   std::filesystem::path (*partner_of)(const std::filesystem::path& path),
-                                   const std::function<void(const std::filesystem::path&)>& write) {
-  const char* const needs_plain_files = "the mesh is two files, which are written as plain files, uncompressed";
+namespace {
+
+constexpr const char* needs_plain_files = "the mesh is several files, which are written as plain files, uncompressed";
+
+void require_plain_name(const std::filesystem::path& path) {
   if (is_standard_stream(path) || names_gzip(path)) {
     throw WriteError(shown_output(path), needs_plain_files);
   }
-  const std::array names{path, partner_of(path)};
+}
+
+std::vector<std::unique_ptr<OutputFile>> open_files(std::span<const std::filesystem::path> names) {
   std::vector<std::unique_ptr<OutputFile>> files;
   for (const std::filesystem::path& name : names) {
     if (files.emplace_back(std::make_unique<OutputFile>(name))->is_direct()) {
       throw WriteError(name, needs_plain_files);
     }
   }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    try {
-      write(files[i]->path());
-    } catch (const WriteError& error) {
-      // Codecs know the temporary file only.
-      throw WriteError(names.at(i), error.reason);
-    }
+  return files;
+}
+
+/// Codecs know the temporary file only.
+void write_file(const OutputFile& file, const std::filesystem::path& name,
+                const std::function<void(const std::filesystem::path&)>& write) {
+  try {
+    write(file.path());
+  } catch (const WriteError& error) {
+    throw WriteError(name, error.reason);
   }
+}
+
+WrittenAside prepared(std::vector<std::unique_ptr<OutputFile>> files) {
   for (const std::unique_ptr<OutputFile>& file : files) {
     file->prepare();
   }
   return WrittenAside(std::move(files));
+}
+
+}  // namespace
+
+WrittenAside write_files_aside(const std::filesystem::path& path, const std::vector<std::filesystem::path>& others,
+                               const std::function<void(const std::filesystem::path&)>& write) {
+  require_plain_name(path);
+  std::vector<std::filesystem::path> names = others;
+  names.push_back(path);  // last: it names the others
+  std::vector<std::unique_ptr<OutputFile>> files = open_files(names);
+  write_file(*files.back(), path, write);
+  return prepared(std::move(files));
+}
+
+WrittenAside write_two_files_aside(const std::filesystem::path& path,
+                                   std::filesystem::path (*partner_of)(const std::filesystem::path& path),
+                                   const std::function<void(const std::filesystem::path&)>& write) {
+  require_plain_name(path);
+  const std::array names{path, partner_of(path)};
+  std::vector<std::unique_ptr<OutputFile>> files = open_files(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    write_file(*files[i], names.at(i), write);
+  }
+  return prepared(std::move(files));
 }
 
 }  // namespace trismooth

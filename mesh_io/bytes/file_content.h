@@ -61,6 +61,12 @@ class WrittenAside {
 WrittenAside write_content_aside(const std::filesystem::path& path, const FileWorkers& workers,
                                  const std::function<void(const std::filesystem::path&)>& write);
 
+/// write_content_aside() of a mesh of several files: `write` writes all of them, `path` where it is told and `others`
+/// at their OutputFile::place_of(). Throws WriteError, also for standard output, pipes and devices, and names that ask
+/// for compression.
+WrittenAside write_files_aside(const std::filesystem::path& path, const std::vector<std::filesystem::path>& others,
+                               const std::function<void(const std::filesystem::path&)>& write);
+
 /// write_content_aside() of a mesh of two files: `write` is given a path for each, with the extensions of `path` and of
 /// `partner_of(path)`. Throws WriteError, also for standard output, pipes and devices, and names that ask for
 /// compression.

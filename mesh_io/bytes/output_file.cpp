@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/bytes/output_file.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -143,9 +145,12 @@ class Folder {
   int descriptor_;
 };
 
+thread_local std::vector<const OutputFile*> files_of_thread;
+
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
+  files_of_thread.reserve(files_of_thread.size() + 1);  // what follows cannot fail then
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(target, error);
   if (std::filesystem::is_directory(status)) {
@@ -156,6 +161,7 @@ OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
     target_ = target;
     path_ = target;
     broken_pipe_is_error_.emplace();
+    files_of_thread.push_back(this);
     return;
   }
   target_ = follow_links(target);
@@ -168,9 +174,11 @@ OutputFile::OutputFile(const std::filesystem::path& target) : given_(target) {
     fail(target, "cannot be written");
   }
   ::close(descriptor);
+  files_of_thread.push_back(this);
 }
 
 OutputFile::~OutputFile() {
+  std::erase(files_of_thread, this);
   if (!direct_ && (!done_ || has_old_)) {
     ::unlink(path_.c_str());
     forget(path_.native());
@@ -200,6 +208,16 @@ bool OutputFile::set_attributes(int descriptor, const Attributes& attributes) {
   const bool is_so = ::fstat(descriptor, &status) == 0 && (status.st_mode & ~S_IFMT) == attributes.permissions;
   errno = error;
   return is_so;
+}
+
+std::filesystem::path OutputFile::name_of(const std::filesystem::path& path) {
+  const auto found = std::ranges::find(files_of_thread, path, [](const OutputFile* file) { return file->path_; });
+  return found == files_of_thread.end() ? path : (*found)->given_;
+}
+
+std::filesystem::path OutputFile::place_of(const std::filesystem::path& name) {
+  const auto found = std::ranges::find(files_of_thread, name, [](const OutputFile* file) { return file->given_; });
+  return found == files_of_thread.end() ? name : (*found)->path_;
 }
 
 void OutputFile::prepare() {

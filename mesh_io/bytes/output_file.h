@@ -29,6 +29,12 @@ class OutputFile {
   /// Whether the target is no regular file, and is written directly.
   bool is_direct() const { return direct_; }
 
+  /// Among the files that this thread makes: the name that was asked for of the one that is written at `path`, and
+  /// where to write the one that is to have `name`. Others are what they are called. For what writes several files
+  /// that name each other.
+  static std::filesystem::path name_of(const std::filesystem::path& path);
+  static std::filesystem::path place_of(const std::filesystem::path& name);
+
   /// Flushes the file to the disk and gives it the target's permissions, and its owner where that is allowed, where
   /// there was one: all of commit() but the last step. Where several files belong together, none is put in place before
   /// all are ready. Throws WriteError.

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "trismooth/base/text/letter_case.h"
-#include "trismooth/mesh_io/vtk_xml/xml_names.h"
+#include "trismooth/mesh_io/xml/xml_names.h"
 
 namespace trismooth {
 

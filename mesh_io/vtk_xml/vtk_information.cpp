@@ -27,7 +27,7 @@
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
-#include "trismooth/mesh_io/vtk_xml/xml_names.h"
+#include "trismooth/mesh_io/xml/xml_names.h"
 
 namespace trismooth {
 

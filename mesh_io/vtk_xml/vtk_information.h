@@ -8,7 +8,7 @@
 #include <vtkInformation.h>
 
 #include "trismooth/mesh_io/data_array.h"
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 namespace trismooth {
 

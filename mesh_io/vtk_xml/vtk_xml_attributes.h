@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 namespace trismooth {
 

@@ -17,7 +17,7 @@
 #include "trismooth/mesh_io/vtk_xml/encoding/vtk_xml_uncompressor.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_array_places.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 namespace trismooth {
 

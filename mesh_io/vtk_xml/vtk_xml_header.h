@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 namespace trismooth {
 

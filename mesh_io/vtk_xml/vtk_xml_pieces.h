@@ -12,7 +12,7 @@
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_cells.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 namespace trismooth {
 

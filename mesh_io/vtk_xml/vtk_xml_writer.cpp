@@ -44,7 +44,7 @@
 #include "trismooth/mesh_io/vtk_xml/vtk_arrays.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_data_sets.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
-#include "trismooth/mesh_io/vtk_xml/xml_names.h"
+#include "trismooth/mesh_io/xml/xml_names.h"
 
 namespace trismooth {
 

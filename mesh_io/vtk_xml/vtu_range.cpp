@@ -24,8 +24,8 @@
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_header.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_pieces.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_text.h"
-#include "trismooth/mesh_io/vtk_xml/xml_names.h"
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_names.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 namespace trismooth {
 

@@ -53,6 +53,8 @@ TEST_CASE("extensions name these formats") {
       {".bdf", {"nastran"}},
       {".nas", {"nastran"}},
       {".unv", {"unv"}},
+      {".xdmf", {"xdmf"}},
+      {".xmf", {"xdmf"}},
   };
   for (const auto& [extension, formats] : documented) {
     CAPTURE(extension);

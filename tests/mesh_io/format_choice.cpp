@@ -206,7 +206,6 @@ TEST_CASE("formats that are known and not read are named, with a way to a file t
   const std::map<std::string, std::string> by_content{
       {"\x89HDF\r\n\x1a\n....", "is HDF5"},
       {"CDF\x02....", "is NetCDF"},
-      {"<?xml version=\"1.0\"?><Xdmf Version=\"3.0\">", "is XDMF"},
       {"(0 \"GAMBIT to Fluent File\")\n", "is Ansys Fluent"},
       {"(0 grid written by a program)\n(2 2)\n", "is Ansys Fluent"},
       {"mesh3d\ndimension\n2\n", "is Netgen"},

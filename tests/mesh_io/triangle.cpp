@@ -228,7 +228,7 @@ TEST_CASE("Triangle: two files do not go through a pipe") {
   document.format = FileFormat::triangle;
   REQUIRE(::mkfifo((folder / "out.node").c_str(), 0600) == 0);
   CHECK(message_of<WriteError>([&] { write_mesh(folder / "out.node", document); }) ==
-        (folder / "out.node").string() + ": the mesh is two files, which are written as plain files, uncompressed");
+        (folder / "out.node").string() + ": the mesh is several files, which are written as plain files, uncompressed");
 }
 
 TEST_CASE("Triangle output: groups of triangles are the attribute, other things are named as lost") {

@@ -14,7 +14,7 @@
 #include "trismooth/mesh_io/vtk_xml/encoding/encoded_bytes.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_messages.h"
 #include "trismooth/mesh_io/vtk_xml/vtk_xml_array_places.h"
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 namespace trismooth {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/mesh_io/vtk_xml/xml_names.h"
+#include "trismooth/mesh_io/xml/xml_names.h"
 
 #include "trismooth/base/text/markup_entity.h"
 #include "trismooth/base/text/utf8.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/mesh_io/vtk_xml/xml_tree.h"
+#include "trismooth/mesh_io/xml/xml_tree.h"
 
 #include <algorithm>
 #include <exception>
@@ -105,6 +105,15 @@ void on_text(void* data, const char* characters, int count) {
   state_of(data).guarded([&] { state_of(data).text(characters, count); });
 }
 
+void on_entity(void* data, const char*, int, const char*, int, const char*, const char*, const char*, const char*) {
+  ParseState& state = state_of(data);
+  state.guarded([&] { throw ReadError(*state.path, state.line(), "entities of the file's own are not accepted"); });
+}
+
+void on_skipped_entity(void* data, const char* name, int) {
+  on_entity(data, name, 0, nullptr, 0, nullptr, nullptr, nullptr, nullptr);
+}
+
 void on_document_type(void* data, const char*, const char*, const char*, int) {
   ParseState& state = state_of(data);
   state.guarded([&] { throw ReadError(*state.path, state.line(), "document type declarations are not accepted"); });
@@ -130,7 +139,7 @@ const XmlElement* XmlElement::child(std::string_view child_name) const {
 namespace {
 
 XmlHead parse(const std::filesystem::path& path, std::string_view bytes, std::string_view stop_at,
-              std::vector<std::string_view> keep_text_of, std::size_t lines_before) {
+              std::vector<std::string_view> keep_text_of, XmlDocumentType type, std::size_t lines_before) {
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, void (*)(XML_Parser)> parser(XML_ParserCreate(nullptr),
                                                                                         &XML_ParserFree);
   if (parser == nullptr) {
@@ -147,7 +156,11 @@ XmlHead parse(const std::filesystem::path& path, std::string_view bytes, std::st
   XML_SetUserData(parser.get(), &state);
   XML_SetElementHandler(parser.get(), &on_start, &on_end);
   XML_SetCharacterDataHandler(parser.get(), &on_text);
-  XML_SetStartDoctypeDeclHandler(parser.get(), &on_document_type);
+  if (type == XmlDocumentType::refused) {
+    XML_SetStartDoctypeDeclHandler(parser.get(), &on_document_type);
+  }
+  XML_SetEntityDeclHandler(parser.get(), &on_entity);
+  XML_SetSkippedEntityHandler(parser.get(), &on_skipped_entity);
 
   bytes = without_end_mark(bytes);  // which is none of XML's
   // expat takes int lengths, and copies what it is given.
@@ -187,8 +200,8 @@ XmlHead parse(const std::filesystem::path& path, std::string_view bytes, std::st
 }  // namespace
 
 XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes, std::string_view stop_at,
-                       std::vector<std::string_view> keep_text_of) {
-  return parse(path, bytes, stop_at, std::move(keep_text_of), 0);
+                       std::vector<std::string_view> keep_text_of, XmlDocumentType type) {
+  return parse(path, bytes, stop_at, std::move(keep_text_of), type, 0);
 }
 
 void check_xml_tail(const std::filesystem::path& path, std::string_view bytes, const XmlElement& root,
@@ -199,7 +212,7 @@ void check_xml_tail(const std::filesystem::path& path, std::string_view bytes, c
   std::string document(bytes.substr(0, declaration));
   document.append("<").append(root.name).append("><").append(stop.name).append(">").append(bytes.substr(tail));
   const auto check = [&](std::size_t lines_before) {
-    const XmlHead parsed = parse(path, document, {}, {}, lines_before);
+    const XmlHead parsed = parse(path, document, {}, {}, XmlDocumentType::refused, lines_before);
     if (parsed.root.children.size() > 1) {
       const XmlElement& extra = parsed.root.children[1];
       throw ReadError(path, extra.line, "<" + extra.name + "> stands behind <" + stop.name + ">, the last element");

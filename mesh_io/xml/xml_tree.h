@@ -39,11 +39,14 @@ struct XmlHead {
   bool stopped = false;  ///< the stop element was found; it is the last child of the root then, its content unread
 };
 
+/// What a document may declare of its type. Entities of its own are refused either way: they make much text of little.
+enum class XmlDocumentType : bool { refused, without_entities };
+
 /// Parses the document up to and with the start tag of the first child of the root named `stop_at` (what follows that
-/// tag need not be XML), or as a whole where there is none. Document type declarations and nesting deeper than 64 are
-/// refused. Throws ReadError with the line.
+/// tag need not be XML), or as a whole where there is none. Nesting deeper than 64 is refused, and so are document type
+/// declarations, unless `type` lets them be. Throws ReadError with the line.
 XmlHead parse_xml_head(const std::filesystem::path& path, std::string_view bytes, std::string_view stop_at,
-                       std::vector<std::string_view> keep_text_of);
+                       std::vector<std::string_view> keep_text_of, XmlDocumentType type = XmlDocumentType::refused);
 
 /// Checks what follows `stop`, the stop element of that head, from the byte `tail` on, where its end tag begins: end
 /// tags, comments and nothing else. Throws ReadError with the line.
