@@ -22,8 +22,8 @@ namespace trismooth {
 
 namespace {
 
-/// Ends of number tokens: white space, separators, comments of all formats, the line continuation of OBJ.
-constexpr std::string_view token_ends = " \t\v\f\r\n,;#%!$\\\x1a";
+/// Ends of number tokens: white space, separators, comments of all formats, the line continuation of OBJ, tags of XML.
+constexpr std::string_view token_ends = " \t\v\f\r\n,;#%!$\\<\x1a";
 
 /// The most bytes that a new number takes.
 constexpr std::size_t most_number_bytes = 32;

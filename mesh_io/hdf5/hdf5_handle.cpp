@@ -4,6 +4,8 @@
 namespace trismooth {
 
 Hdf5Lock::Hdf5Lock() : lock_(hdf5_mutex()) {
+  // Damaged files leave something open in the library, which complains of it when it is closed as the program ends.
+  [[maybe_unused]] static const herr_t stays_open = H5dont_atexit();
   H5Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

@@ -110,8 +110,7 @@ class CellReader {
       if (topology_.attribute(name) == nullptr) {
         continue;
       }
-      const auto declared = number_in(name);
-      if (declared != static_cast<std::int64_t>(cells)) {
+      if (number_in(name) != static_cast<std::int64_t>(cells)) {
         fail(std::string(name) + "=" + quoted(std::string_view(*topology_.attribute(name))) + ", but there are " +
              std::to_string(cells) + " cells");
       }

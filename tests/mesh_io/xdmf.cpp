@@ -173,7 +173,8 @@ TEST_CASE("XDMF: what breaks the rules is refused with the line and what is wron
   refused(file(grid(two_triangles + points() + points())), "a second <Geometry>");
   refused(file(grid(topology("Triangle", "2 3", "0 1 2 0 2 4") + points())), "the vertex 4, and there are 4 points");
   refused(file(grid(topology("Triangle", "2 3", "0 1 2 0 2 -1") + points())), "the vertex -1");
-  refused(file(grid(topology("Triangle", "2 3", "0 1 2 0 2") + points())), "expected 6 numbers in a <DataItem>, got 5");
+  refused(file(grid(topology("Triangle", "2 3", "0 1 2 0 2") + points())),
+          "declares 6 numbers in a <DataItem>, but the file has room for 5");
   refused(file(grid(topology("Triangle", "2 3", "0 1 2 0 2 3 1") + points())), "expected the end of a <DataItem>");
   refused(file(grid(topology("Triangle", "5", "0 1 2 0 2") + points())), "no cells of 3 vertices each");
   refused(file(grid(topology("Triangle", "2 3", "0 1 2 0 2 3", "NumberOfElements=\"3\"") + points())),
