@@ -16,8 +16,8 @@ struct XdmfGrid {
   const XmlElement* element = nullptr;
   const XmlElement* topology = nullptr;
   const XmlElement* geometry = nullptr;
-  XmlElements attributes;
-  XmlElements sets;
+  XmlElements attributes{};
+  XmlElements sets{};
 };
 
 /// The grids of an XDMF file.

@@ -40,14 +40,14 @@ struct XdmfItem {
 
   Place place = Place::text;
   std::size_t line = 0;
-  std::vector<std::uint64_t> extents;
-  std::optional<ScalarType> type;  ///< absent: no numbers
-  std::size_t file = 0;            ///< of heavy data: a place in the list of files
-  std::string dataset;             ///< in HDF5
-  std::uint64_t begin = 0;         ///< bytes of the text, or of the binary file
-  std::uint64_t end = 0;           ///< of the text
-  bool is_big_endian = false;      ///< in the binary file
-  std::string key;                 ///< the same for the same numbers
+  std::vector<std::uint64_t> extents{};
+  std::optional<ScalarType> type{};  ///< absent: no numbers
+  std::size_t file = 0;              ///< of heavy data: a place in the list of files
+  std::string dataset{};             ///< in HDF5
+  std::uint64_t begin = 0;           ///< bytes of the text, or of the binary file
+  std::uint64_t end = 0;             ///< of the text
+  bool is_big_endian = false;        ///< in the binary file
+  std::string key{};                 ///< the same for the same numbers
 
   std::uint64_t count() const;
 };

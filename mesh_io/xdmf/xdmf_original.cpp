@@ -111,7 +111,9 @@ class XdmfOriginal : public OriginalFile {
   }
 
   static NumberSites sites_of(const XdmfCoordinates& coordinates, NumberEncoding encoding) {
-    NumberSites sites{.encoding = encoding, .type = coordinates.item.type.value_or(ScalarType::float64)};
+    NumberSites sites;
+    sites.encoding = encoding;
+    sites.type = coordinates.item.type.value_or(ScalarType::float64);
     sites.columns.clear();
     for (const std::uint8_t component : coordinates.components) {
       sites.columns.push_back({.component = component});
