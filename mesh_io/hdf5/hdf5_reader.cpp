@@ -363,6 +363,22 @@ DataArray Hdf5Reader::read_array(const std::string& dataset, std::string name, s
   });
 }
 
+std::string Hdf5Reader::read_bytes(const std::string& dataset) const {
+  const Hdf5Lock lock;
+  const Source source = open_dataset(dataset);
+  // Of others memory holds addresses.
+  if (H5Tdetect_class(source.type.get(), H5T_VLEN) != 0 || H5Tdetect_class(source.type.get(), H5T_REFERENCE) != 0 ||
+      (source.shape.is_text && H5Tis_variable_str(source.type.get()) != 0)) {
+    fail(dataset, "holds values of a type that is not read");
+  }
+  require_bytes(source);
+  std::string bytes(static_cast<std::size_t>(source.shape.count()) * H5Tget_size(source.type.get()), '\0');
+  if (!bytes.empty() && !source.read(source.type.get(), bytes.data())) {
+    fail(dataset, "cannot be read" + hdf5_reason());
+  }
+  return bytes;
+}
+
 std::vector<std::string> Hdf5Reader::read_texts(const std::string& dataset) const {
   const Hdf5Lock lock;
   return read_texts_of(open_dataset(dataset));
@@ -410,6 +426,23 @@ std::vector<T> Hdf5Reader::read_attribute(const std::string& object, const std::
 std::vector<std::string> Hdf5Reader::read_attribute_texts(const std::string& object, const std::string& name) const {
   const Hdf5Lock lock;
   return read_texts_of(open_attribute(object, name));
+}
+
+bool is_hdf5_with(std::string_view bytes, const std::string& object) {
+  using namespace std::string_view_literals;
+  // Behind a block of a program's own, which has some power of two of bytes.
+  constexpr std::size_t first_place = 512;
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n"sv;
+  for (std::size_t at = 0; at < bytes.size(); at = std::max(first_place, 2 * at)) {
+    if (bytes.substr(at).starts_with(signature)) {
+      try {
+        return Hdf5Reader({}, bytes).kind_of(object).has_value();
+      } catch (const ReadError&) {
+        return false;
+      }
+    }
+  }
+  return false;
 }
 
 #define TRISMOOTH_HDF5_READ(T)                                                \

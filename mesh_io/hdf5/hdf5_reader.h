@@ -59,6 +59,8 @@ class Hdf5Reader {
   /// All numbers of a dataset in their own type, under the name and with the components that are given; these divide
   /// their number.
   DataArray read_array(const std::string& dataset, std::string name, std::size_t components) const;
+  /// All values of a dataset as they are in the file, of any type whose values have one size: lists of characters, say.
+  std::string read_bytes(const std::string& dataset) const;
   /// All texts of a dataset, without the zeros and blanks that fill them up.
   std::vector<std::string> read_texts(const std::string& dataset) const;
 
@@ -88,5 +90,8 @@ class Hdf5Reader {
   std::string_view bytes_;
   Hdf5Handle handle_;
 };
+
+/// Whether the bytes are an HDF5 file that has a group or dataset of that path. Opens the file, reads nothing else.
+bool is_hdf5_with(std::string_view bytes, const std::string& object);
 
 }  // namespace trismooth

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,12 @@ Hdf5Handle space_of(std::span<const std::uint64_t> extents) {
   return {H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr), &H5Sclose};
 }
 
+/// Files of one name are one file to HDF5.
+std::string name_in_memory() {
+  static std::atomic<std::uint64_t> made{0};
+  return "trismooth file " + std::to_string(made++);
+}
+
 Hdf5Handle groups_above() {
   Hdf5Handle properties(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
   H5Pset_create_intermediate_group(properties.get(), 1);
@@ -29,6 +36,31 @@ Hdf5Handle groups_above() {
 }
 
 }  // namespace
+
+/// The memory that HDF5 works in, which is this object's: a file that is closed there is whole, other than an image
+/// that HDF5 hands out of one that is open.
+struct Hdf5Writer::Image {
+  explicit Image(std::string_view all) : bytes(all), size(all.size()) {}
+
+  std::string bytes;  ///< longer than the file, at times
+  std::size_t size;
+
+  /// Gives the memory, with room for `wanted` bytes; null where there is not as much.
+  static void* grow(void*, std::size_t wanted, H5FD_file_image_op_t, void* image) {
+    std::string& bytes = static_cast<Image*>(image)->bytes;
+    try {
+      bytes.resize(std::max(bytes.size(), wanted));
+    } catch (const std::bad_alloc&) {
+      return nullptr;
+    }
+    return bytes.data();
+  }
+  static void* give(std::size_t, H5FD_file_image_op_t, void* image) { return static_cast<Image*>(image)->bytes.data(); }
+  static void* copy_nothing(void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; }
+  static herr_t free_nothing(void*, H5FD_file_image_op_t, void*) { return 0; }
+  static void* same(void* image) { return image; }
+  static herr_t keep(void*) { return 0; }
+};
 
 Hdf5Writer::Hdf5Writer(std::filesystem::path file, Hdf5Handle handle, bool is_in_memory)
     : file_(std::move(file)), handle_(std::move(handle)), is_in_memory_(is_in_memory) {
@@ -41,10 +73,7 @@ Hdf5Writer Hdf5Writer::make(const std::filesystem::path& file) {
   const Hdf5Lock lock;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
   H5Pset_fapl_core(access.get(), std::size_t{1} << 20, 0);
-  // Files of one name are one file to HDF5.
-  static std::atomic<std::uint64_t> made{0};
-  const std::string name = "trismooth file " + std::to_string(made++);
-  return {file, {H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), &H5Fclose}, true};
+  return {file, {H5Fcreate(name_in_memory().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), &H5Fclose}, true};
 }
 
 Hdf5Writer Hdf5Writer::change(const std::filesystem::path& file) {
@@ -55,6 +84,20 @@ Hdf5Writer Hdf5Writer::change(const std::filesystem::path& file) {
   H5Pset_file_locking(access.get(), 0, 1);
 #endif
   return {file, {H5Fopen(file.c_str(), H5F_ACC_RDWR, access.get()), &H5Fclose}, false};
+}
+
+Hdf5Writer Hdf5Writer::change(const std::filesystem::path& file, std::string_view bytes) {
+  const Hdf5Lock lock;
+  auto image = std::make_shared<Image>(bytes);
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  H5FD_file_image_callbacks_t callbacks{&Image::give, &Image::copy_nothing, &Image::grow, &Image::free_nothing,
+                                        &Image::same, &Image::keep,         image.get()};
+  H5Pset_fapl_core(access.get(), std::size_t{1} << 16, 0);
+  H5Pset_file_image_callbacks(access.get(), &callbacks);
+  H5Pset_file_image(access.get(), image->bytes.data(), image->size);
+  Hdf5Writer writer(file, {H5Fopen(name_in_memory().c_str(), H5F_ACC_RDWR, access.get()), &H5Fclose}, true);
+  writer.image_ = std::move(image);
+  return writer;
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -92,16 +135,28 @@ void Hdf5Writer::make_group(const std::string& group) {
 void Hdf5Writer::write(const std::string& dataset, std::span<const std::uint64_t> extents, ScalarType type,
                        std::span<const std::byte> values) {
   const Hdf5Lock lock;
+  write(dataset, extents, hdf5_memory_type(type), values);
+}
+
+void Hdf5Writer::write_rows(const std::string& dataset, std::size_t width, std::string_view rows) {
+  const Hdf5Lock lock;
+  const hsize_t size = width;
+  const Hdf5Handle row(H5Tarray_create2(H5T_NATIVE_INT8, 1, &size), &H5Tclose);
+  const std::uint64_t count = rows.size() / width;
+  write(dataset, {&count, 1}, row.get(), std::as_bytes(std::span(rows)));
+}
+
+void Hdf5Writer::write(const std::string& dataset, std::span<const std::uint64_t> extents, hid_t type,
+                       std::span<const std::byte> values) {
   const Hdf5Handle above = groups_above();
   const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
   H5Pset_obj_track_times(properties.get(), 0);
   const Hdf5Handle space = space_of(extents);
-  const hid_t number = hdf5_memory_type(type);
   const Hdf5Handle made(
-      H5Dcreate2(handle_.get(), dataset.c_str(), number, space.get(), above.get(), properties.get(), H5P_DEFAULT),
+      H5Dcreate2(handle_.get(), dataset.c_str(), type, space.get(), above.get(), properties.get(), H5P_DEFAULT),
       &H5Dclose);
   if (!made.is_valid() ||
-      (!values.empty() && H5Dwrite(made.get(), number, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
+      (!values.empty() && H5Dwrite(made.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)) {
     fail(dataset);
   }
 }
@@ -149,6 +204,17 @@ void Hdf5Writer::close() {
   const Hdf5Lock lock;
   if (H5Fflush(handle_.get(), H5F_SCOPE_GLOBAL) < 0) {
     throw WriteError(file_, "cannot be written by HDF5" + hdf5_reason());
+  }
+  if (image_) {
+    const ssize_t size = H5Fget_file_image(handle_.get(), nullptr, 0);
+    if (size < 0 || !handle_.close()) {
+      throw WriteError(file_, "cannot be written by HDF5" + hdf5_reason());
+    }
+    // What stands behind the end of HDF5's part stays.
+    BufferedWriter writer(file_);
+    writer.write(std::string_view(image_->bytes).substr(0, std::max(image_->size, static_cast<std::size_t>(size))));
+    writer.close();
+    return;
   }
   if (is_in_memory_) {
     const ssize_t size = H5Fget_file_image(handle_.get(), nullptr, 0);

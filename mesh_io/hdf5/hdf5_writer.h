@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,8 @@ class Hdf5Writer {
   static Hdf5Writer make(const std::filesystem::path& file);
   /// The file that is there.
   static Hdf5Writer change(const std::filesystem::path& file);
+  /// The file of these bytes, changed in a copy of them until close() writes it to `file`, a plain path of any kind.
+  static Hdf5Writer change(const std::filesystem::path& file, std::string_view bytes);
   Hdf5Writer(Hdf5Writer&&) = default;
   ~Hdf5Writer();
 
@@ -38,6 +41,9 @@ class Hdf5Writer {
   /// The same of values of any type.
   void write(const std::string& dataset, std::span<const std::uint64_t> extents, ScalarType type,
              std::span<const std::byte> values);
+  /// Makes a dataset of rows of `width` characters, one row a value, and the groups above it; `rows` are the characters
+  /// of all.
+  void write_rows(const std::string& dataset, std::size_t width, std::string_view rows);
   /// Gives an object an attribute: one number, an array, or a text, which is filled up with zeros to `size` bytes, or
   /// has its own length and a zero.
   template <class T>
@@ -51,15 +57,20 @@ class Hdf5Writer {
   void close();
 
  private:
+  struct Image;
+
   Hdf5Writer(std::filesystem::path file, Hdf5Handle handle, bool is_in_memory);
 
   [[noreturn]] void fail(const std::string& object) const;
+  void write(const std::string& dataset, std::span<const std::uint64_t> extents, hid_t type,
+             std::span<const std::byte> values);
   void set_attribute(const std::string& object, const std::string& name, hid_t type, const Hdf5Handle& space,
                      const void* values);
 
   std::filesystem::path file_;
   Hdf5Handle handle_;
   bool is_in_memory_;
+  std::shared_ptr<Image> image_;  ///< of change() in memory
 };
 
 }  // namespace trismooth

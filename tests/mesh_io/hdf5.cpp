@@ -2,6 +2,7 @@
 #ifdef TRISMOOTH_HAS_HDF5
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "trismooth/mesh_io/hdf5/hdf5_writer.h"
 
 #include "catch.h"
+#include "support/memory_file.h"
 #include "support/scratch_folder.h"
 
 using trismooth::Hdf5Kind;
@@ -131,6 +133,54 @@ TEST_CASE("values are written over, and type, chunks, filters and byte order sta
   const Hdf5Handle type(H5Dget_type(dataset.get()), &H5Tclose);
   CHECK(H5Pget_nfilters(properties.get()) == 1);
   CHECK(H5Tequal(type.get(), H5T_IEEE_F64BE) > 0);
+}
+
+TEST_CASE(
+    "a file in memory gets other values and is written to any path, also where it grows and bytes stand behind it") {
+  const ScratchFolder folder;
+  std::vector<double> values(100000);
+  std::string bytes = foreign_file(folder, [&](hid_t file) { make_deflated(file, {50000, 2}, {10000, 2}, values); });
+  bytes += "behind";
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = std::sqrt(static_cast<double>(i));
+  }
+  const test_support::MemoryFile target;
+  Hdf5Writer writer = Hdf5Writer::change(target.path(), bytes);
+  writer.overwrite<double>("x", values);
+  writer.close();
+  const std::string written = target.bytes();
+  CHECK(written.size() > 2 * bytes.size());
+  CHECK(Hdf5Reader("a.h5", written).read<double>("x") == values);
+  CHECK_THROWS_AS(Hdf5Writer::change(target.path(), "no file"), WriteError);
+  // With nothing changed the bytes are the same.
+  const std::string small = small_file(folder);
+  Hdf5Writer same = Hdf5Writer::change(target.path(), small);
+  same.close();
+  CHECK((target.bytes() == small));
+}
+
+TEST_CASE("rows of characters are written and read as bytes, texts of any length are not") {
+  const ScratchFolder folder;
+  Hdf5Writer writer = Hdf5Writer::make(folder / "rows.h5");
+  writer.write_rows("/names", 4, "ab  cdef");
+  writer.close();
+  const std::string bytes = bytes_of(folder / "rows.h5");
+  const Hdf5Reader reader("a.h5", bytes);
+  CHECK(reader.read_bytes("/names") == "ab  cdef");
+  CHECK(reader.shape_of("/names").count() == 2);
+  CHECK_THROWS_AS(reader.read_bytes("/none"), ReadError);
+  CHECK(is_hdf5_with(bytes, "/names"));
+  CHECK_FALSE(is_hdf5_with(bytes, "/none"));
+  CHECK_FALSE(is_hdf5_with(bytes.substr(0, 100), "/names"));
+  CHECK_FALSE(is_hdf5_with("OFF\n", "/names"));
+  const std::string of_any_length = foreign_file(folder, [](hid_t file) {
+    const Hdf5Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
+    H5Tset_size(type.get(), H5T_VARIABLE);
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), &H5Sclose);
+    const Hdf5Handle made(H5Dcreate2(file, "x", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                          &H5Dclose);
+  });
+  CHECK_THROWS_AS(Hdf5Reader("a.h5", of_any_length).read_bytes("x"), ReadError);
 }
 
 TEST_CASE("texts of any length are read") {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/mesh_io/hdf5/hdf5_original.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+#include "trismooth/mesh_io/bytes/buffered_writer.h"
+#include "trismooth/mesh_io/document/patched_original.h"
+#include "trismooth/mesh_io/hdf5/hdf5_reader.h"
+#include "trismooth/mesh_io/hdf5/hdf5_writer.h"
+
+namespace trismooth {
+
+namespace {
+
+/// What is no number stays so; a zero's sign counts.
+bool differs(double stored, double value) {
+  return !(std::isnan(stored) && std::isnan(value)) && (stored != value || std::signbit(stored) != std::signbit(value));
+}
+
+class Hdf5Original : public OriginalFile {
+ public:
+  Hdf5Original(FileBytes bytes, std::size_t points, std::vector<Hdf5Column> columns)
+      : bytes_(std::move(bytes)), points_(points) {
+    for (Hdf5Column& column : columns) {
+      columns_[column.dataset].push_back(std::move(column));
+    }
+  }
+
+  void write(const std::filesystem::path& path, const MeshDocument& document,
+             std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
+             Workers& /*workers*/) const override {
+    require_same_points(path, document, points_, "nodes", added_point_arrays, added_cell_arrays);
+    std::map<std::string, std::vector<double>> changed;
+    {
+      const Hdf5Reader reader(path, bytes_);
+      for (const auto& [dataset, columns] : columns_) {
+        std::vector<double> values = reader.read<double>(dataset);
+        if (update(values, columns, document)) {
+          changed.emplace(dataset, std::move(values));
+        }
+      }
+    }
+    if (changed.empty()) {
+      BufferedWriter writer(path);
+      writer.write(bytes_.view());
+      writer.close();
+      return;
+    }
+    Hdf5Writer file = Hdf5Writer::change(path, bytes_);
+    for (const auto& [dataset, values] : changed) {
+      file.overwrite<double>(dataset, values);
+    }
+    file.close();
+  }
+
+  bool keeps_values_of(std::string_view point_array) const override {
+    return std::ranges::any_of(columns_, [point_array](const auto& of_dataset) {
+      return std::ranges::any_of(of_dataset.second, [point_array](const Hdf5Column& column) {
+        return !column.column.array.empty() && column.column.array == point_array;
+      });
+    });
+  }
+
+ private:
+  /// Whether any value is another one now.
+  static bool update(std::vector<double>& values, const std::vector<Hdf5Column>& columns,
+                     const MeshDocument& document) {
+    bool any = false;
+    for (const Hdf5Column& column : columns) {
+      const SiteColumn& site = column.column;
+      const DataArray* const array = site.array.empty() ? nullptr : find_array(document.point_arrays, site.array);
+      if (!site.array.empty() && (array == nullptr || site.component >= array->components)) {
+        continue;
+      }
+      for (std::size_t i = 0; i < column.count; ++i) {
+        const std::size_t point = column.first_point + i;
+        const double value =
+            array == nullptr ? document.points[3 * point + site.component] : array->value(point, site.component);
+        double& stored = values[column.begin + i * column.step];
+        if (differs(stored, value)) {
+          stored = value;
+          any = true;
+        }
+      }
+    }
+    return any;
+  }
+
+  FileBytes bytes_;
+  std::size_t points_;
+  std::map<std::string, std::vector<Hdf5Column>> columns_;  ///< by their dataset
+};
+
+}  // namespace
+
+std::shared_ptr<const OriginalFile> make_hdf5_original(FileBytes bytes, std::size_t points,
+                                                       std::vector<Hdf5Column> columns) {
+  return std::make_shared<Hdf5Original>(std::move(bytes), points, std::move(columns));
+}
+
+}  // namespace trismooth
