@@ -55,16 +55,16 @@ struct Codec {
 };
 
 /// One codec a format, each in the folder of its format. Those of a format that this build cannot read (VTK's without
-/// VTK) have a description and no functions.
+/// VTK, MED and CGNS without HDF5) have a description and no functions.
 extern const Codec off_codec, obj_codec, ply_codec, stl_codec, vtk_legacy_codec, vtu_codec, vtp_codec, msh_codec,
     medit_codec, su2_codec, inp_codec, adcirc_codec, sms_codec, freefem_codec, mfem_codec, triangle_codec,
-    nastran_codec, unv_codec, xdmf_codec;
+    nastran_codec, unv_codec, xdmf_codec, med_codec, cgns_codec;
 
 /// In the order of FileFormat.
-inline constexpr std::array all_codecs{&off_codec,      &obj_codec,     &ply_codec, &stl_codec,     &vtk_legacy_codec,
-                                       &vtu_codec,      &vtp_codec,     &msh_codec, &medit_codec,   &su2_codec,
-                                       &inp_codec,      &adcirc_codec,  &sms_codec, &freefem_codec, &mfem_codec,
-                                       &triangle_codec, &nastran_codec, &unv_codec, &xdmf_codec};
+inline constexpr std::array all_codecs{
+    &off_codec,  &obj_codec,      &ply_codec,     &stl_codec, &vtk_legacy_codec, &vtu_codec, &vtp_codec,
+    &msh_codec,  &medit_codec,    &su2_codec,     &inp_codec, &adcirc_codec,     &sms_codec, &freefem_codec,
+    &mfem_codec, &triangle_codec, &nastran_codec, &unv_codec, &xdmf_codec,       &med_codec, &cgns_codec};
 
 constexpr const Codec& codec_of(FileFormat format) {
   return *all_codecs[static_cast<std::size_t>(format)];

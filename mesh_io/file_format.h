@@ -31,7 +31,9 @@ enum class FileFormat : std::uint8_t {
   triangle,
   nastran,
   unv,
-  xdmf
+  xdmf,
+  med,
+  cgns
 };
 
 /// The format's short name in options, reports and JSON: "off", "obj", ...
@@ -59,8 +61,8 @@ std::vector<FileFormat> formats_of(const std::filesystem::path& path);
 /// The format of that short name, or nothing.
 std::optional<FileFormat> format_named(std::string_view name);
 
-/// Whether this build reads and writes the format. All but vtu and vtp always are available; these need a build with
-/// VTK.
+/// Whether this build reads and writes the format. vtu and vtp need a build with VTK, med and cgns one with HDF5; all
+/// others always are available.
 bool is_available(FileFormat format);
 
 /// Every format, available or not, in the order of the enumeration.

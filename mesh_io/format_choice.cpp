@@ -35,8 +35,8 @@ std::string describe_unknown_extension(const std::filesystem::path& path) {
 }
 
 std::string describe_unavailable(FileFormat format) {
-  return "this program was built without VTK, which " + std::string(extensions_of(format).front()) +
-         " needs; available are " + titled_format_list();
+  return "this program was built without " + std::string(codec_of(format).description.library) + ", which " +
+         std::string(extensions_of(format).front()) + " needs; available are " + titled_format_list();
 }
 
 bool is_recognised(FileFormat format, std::string_view bytes) {
@@ -83,6 +83,15 @@ bool has_zeros(std::string_view bytes) {
   return bytes.substr(0, looked_at).find('\0') != std::string_view::npos;
 }
 
+/// What the bytes begin as that is not read. Files that HDF5 keeps look alike: where one is named that is read, its
+/// reader says what is wrong with it.
+std::optional<UnreadFormat> unread_format(std::string_view bytes, const std::vector<FileFormat>& named) {
+  const bool is_kept_by_hdf5 = bytes.starts_with("\x89HDF") && std::ranges::any_of(named, [](FileFormat format) {
+                                 return codec_of(format).description.library == "HDF5";
+                               });
+  return is_kept_by_hdf5 ? std::nullopt : recognise_unread_format(bytes);
+}
+
 /// "as its name says", "as was told".
 FormatChoice otherwise(FileFormat format, std::optional<FileFormat> named, bool is_told) {
   const std::string title(title_of(format));
@@ -107,11 +116,14 @@ FormatChoice choose_format(const std::filesystem::path& path, std::string_view b
     return {*recognising, {}};
   }
   // A format that shows nothing is text, and what has zeros is none.
-  if (const auto unread = recognise_unread_format(bytes); unread && has_zeros(bytes)) {
+  const auto unread = unread_format(bytes, named);
+  const bool is_no_text = unread && has_zeros(bytes);
+  if (is_no_text && !only_one_recognised(bytes)) {
     throw ReadError(path, describe_unread(*unread));
   }
   // What is told is of the output, too, which is to be of another format then.
-  if (named.size() == 1 && !is_told && is_available(named.front()) && codec_of(named.front()).recognises == nullptr) {
+  if (named.size() == 1 && !is_told && !is_no_text && is_available(named.front()) &&
+      codec_of(named.front()).recognises == nullptr) {
     return {named.front(), {}};
   }
   const auto first = named.empty() ? std::nullopt : std::optional(named.front());
@@ -125,7 +137,7 @@ FormatChoice choose_format(const std::filesystem::path& path, std::string_view b
   if (!first) {
     fail_unknown(path, bytes);
   }
-  if (const auto unread = recognise_unread_format(bytes)) {
+  if (unread) {
     throw ReadError(path, describe_unread(*unread));
   }
   if (!is_available(*first)) {

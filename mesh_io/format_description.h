@@ -31,6 +31,7 @@ struct FormatDescription {
   std::array<std::string_view, 4> extensions;  ///< in lower case, the usual one first; empty behind the last
   FormatContent holds{};
   std::optional<std::int64_t> first_point_label{};  ///< of files that number points without saying so: 0 or 1
+  std::string_view library{};                       ///< that a build needs to read and write it; empty: none
 };
 
 }  // namespace trismooth

@@ -36,8 +36,6 @@ constexpr auto by_extension = std::to_array<ExtensionOfUnread>({
     {".e", exodus},
     {".ex2", exodus},
     {".g", exodus},
-    {".cgns", {"CGNS", "gmsh in.cgns -save -o out.msh' or 'meshio convert in.cgns out.vtu"}},
-    {".med", {"MED (Salome)", "gmsh in.med -save -o out.msh' or 'meshio convert in.med out.vtu"}},
     {".cdb", {"an Ansys archive (CDB)", ""}},
     {".vol", netgen},
     {".h5", {"HDF5", ""}},
@@ -114,7 +112,7 @@ std::optional<UnreadFormat> unread_format_of(const std::filesystem::path& path) 
 std::optional<UnreadFormat> recognise_unread_format(std::string_view bytes) {
   const std::string_view head = text_head(bytes);
   if (head.starts_with("\x89HDF\r\n\x1a\n"sv)) {
-    return UnreadFormat{"HDF5 (as CGNS, MED, Exodus II, XDMF and NetCDF 4 have it)", "meshio convert in.cgns out.vtu"};
+    return UnreadFormat{"HDF5 (as Exodus II, XDMF and NetCDF 4 have it)", exodus.converter};
   }
   if (begins_as_netcdf(head)) {
     return netcdf;

@@ -68,6 +68,7 @@ constexpr std::array whole_names = std::to_array<std::string_view>({
     "nastranpid",
     "unvgroup",
     "unvpid",
+    "cgnsgroup",
     "tetgenref",
     "netgenindex",
     "su2tag",
@@ -106,6 +107,7 @@ constexpr std::array whole_names = std::to_array<std::string_view>({
     // Salome (MED)
     "familyidcell",
     "familyidelement",
+    "medgroup",
     "medfamily",
     // VMTK, SimVascular, PyGIMLi, Netgen
     "modelregionid",

@@ -10,11 +10,15 @@ inline constexpr FormatDescription vtu_description{FileFormat::vtu,
                                                    "vtu",
                                                    "VTK XML (unstructured grid)",
                                                    {".vtu"},
-                                                   {.arrays = true, .strips = true, .cells_of_any_order = true}};
+                                                   {.arrays = true, .strips = true, .cells_of_any_order = true},
+                                                   {},
+                                                   "VTK"};
 inline constexpr FormatDescription vtp_description{FileFormat::vtp,
                                                    "vtp",
                                                    "VTK XML (polygonal data)",
                                                    {".vtp"},
-                                                   {.arrays = true, .curved_cells = false, .strips = true}};
+                                                   {.arrays = true, .curved_cells = false, .strips = true},
+                                                   {},
+                                                   "VTK"};
 
 }  // namespace trismooth

@@ -61,7 +61,7 @@ std::vector<Place> text_numbers(const AcceptedFile& file) {
   } else if (file.extension == ".ply" && bytes.find("format ascii") == bytes.npos) {
     add_numbers(bytes.substr(0, bytes.find("end_header")), 0, places);
   } else if (!file.name.starts_with("stl_binary") && !contains(file.name, "off_big") &&
-             !contains(file.name, "off_little") && file.extension != ".meshb") {
+             !contains(file.name, "off_little") && !is_kept_by_hdf5(file) && file.extension != ".meshb") {
     add_numbers(bytes.substr(0, bytes.find("<AppendedData")), 0, places);
   }
   return places;

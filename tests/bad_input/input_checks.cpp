@@ -87,7 +87,14 @@ bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
   return file.extension == ".vtu" || file.extension == ".vtp";
 }
 
+bool is_kept_by_hdf5(const accepted_files::AcceptedFile& file) {
+  return trismooth::codec_of(accepted_files::format_of(file)).description.library == "HDF5";
+}
+
 std::size_t stride_of(const accepted_files::AcceptedFile& file) {
+  if (is_kept_by_hdf5(file)) {
+    return is_sanitized ? 401 : per_cent_of_cases() >= 100 ? 17 : 61;
+  }
   if (!is_sanitized && per_cent_of_cases() >= 100) {
     return 1;
   }

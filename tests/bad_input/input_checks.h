@@ -42,6 +42,8 @@ std::string written_back(const trismooth::MeshDocument& document);
 std::size_t stride_of(const accepted_files::AcceptedFile& file);
 
 bool is_vtk_xml(const accepted_files::AcceptedFile& file);
+/// MED and CGNS: a library opens each file, which takes its time.
+bool is_kept_by_hdf5(const accepted_files::AcceptedFile& file);
 
 /// Faults of many cases: all are counted, the first few are told.
 class Faults {

@@ -87,11 +87,13 @@ double moved_from(double from, const accepted_files::AcceptedFile& file) {
 
 /// Whether nothing but the digits of a number changes where a coordinate moves. XML is written by a library; corners of
 /// STL and nodes of MFEM's elements stand in the file more than once; parameters of Gmsh's nodes do not stay where
-/// these move; a card of Nastran's that ended before a coordinate gets longer.
+/// these move; a card of Nastran's that ended before a coordinate gets longer; values of HDF5's that are compressed, or
+/// lie in a header with a checksum.
 bool is_changed_in_place(const accepted_files::AcceptedFile& file) {
   return file.extension != ".vtu" && file.extension != ".vtp" && file.extension != ".stl" &&
          file.name.find("parametric") == std::string::npos && file.name != "mfem_nodes_of_elements" &&
-         file.name != "nastran_mixed";
+         file.name != "nastran_mixed" && file.name.find("deflated") == std::string::npos &&
+         file.name.find("compact") == std::string::npos;
 }
 
 TEST_CASE("a coordinate that moves is written in its place in every format, and nothing else changes") {
@@ -167,7 +169,7 @@ TEST_CASE("changed values of point arrays are written back in every format that 
       }
     }
   }
-  for (const char* extension : {".ply", ".vtk", ".vtu", ".vtp"}) {
+  for (const char* extension : {".ply", ".vtk", ".vtu", ".vtp", ".med", ".cgns"}) {
     INFO(extension);
     CHECK((extensions.count(extension) == 1 || !is_available(*trismooth::format_of(std::string("a") + extension))));
   }

@@ -55,6 +55,10 @@ TEST_CASE("extensions name these formats") {
       {".unv", {"unv"}},
       {".xdmf", {"xdmf"}},
       {".xmf", {"xdmf"}},
+      {".cgns", {"cgns"}},
+      {".med", {"med"}},
+      {".rmed", {"med"}},
+      {".mmed", {"med"}},
   };
   for (const auto& [extension, formats] : documented) {
     CAPTURE(extension);

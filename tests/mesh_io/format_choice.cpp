@@ -230,8 +230,8 @@ TEST_CASE("formats that are known and not read are named, with a way to a file t
     CAPTURE(bytes);
     CHECK_FALSE(trismooth::recognise_unread_format(bytes));
   }
-  CHECK(
-      says(message_of<WriteError>([] { output_format("out.cgns"); }), "out.cgns: CGNS is not written; known are OFF"));
+  CHECK(says(message_of<WriteError>([] { output_format("out.cdb"); }),
+             "out.cdb: an Ansys archive (CDB) is not written; known are OFF"));
 }
 
 TEST_CASE("no extension of a format that is read names one that is not") {

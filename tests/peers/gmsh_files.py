@@ -9,8 +9,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 try:
     import gmsh
     import gmsh_model
+    import hdf5_values
 except (ImportError, OSError) as missing:
-    print(f"skipped: Gmsh for Python is not installed where this runs ({missing})")
+    print(f"skipped: Gmsh or h5py for Python is not installed where this runs ({missing})")
     sys.exit(77)
 
 import nastran_columns
@@ -38,9 +39,14 @@ BINARY_DIALECTS = {
     "msh41_binary": (".msh", {"MshFileVersion": 4.1, "Binary": 1}),
     "msh22_binary": (".msh", {"MshFileVersion": 2.2, "Binary": 1}),
 }
+# Kept by HDF5.
+HDF5_DIALECTS = {
+    "med": (".med", {}),
+    "cgns": (".cgns", {}),
+}
 # What Gmsh both writes and reads in full.
 MSH = ("msh41", "msh40", "msh22", "msh41_binary", "msh22_binary")
-EVERY_DIALECT = {**TEXT_DIALECTS, **COLUMN_DIALECTS, **BINARY_DIALECTS}
+EVERY_DIALECT = {**TEXT_DIALECTS, **COLUMN_DIALECTS, **BINARY_DIALECTS, **HDF5_DIALECTS}
 
 
 class GmshTest(tool.ToolTest):
@@ -113,6 +119,21 @@ class WrittenBack(GmshTest):
                 self.assertEqual(len(self.read(output)), len(self.read(name)))
                 self.assertNotEqual(self.read(output), self.read(name))
 
+    def test_hdf5_differs_in_the_coordinates_of_moved_nodes_alone(self):
+        for dialect in HDF5_DIALECTS:
+            for model in ({}, {"order": 2}, {"quads": True}):
+                with self.subTest(dialect=dialect, **model):
+                    name = self.write_model(dialect, **model)
+                    output, report = self.smooth(name)
+                    changed = hdf5_values.changed(self.path(name), self.path(output))
+                    self.assertLessEqual({path.rsplit("/", 2)[-1 if dialect == "med" else -2] for path in changed},
+                                         {"COO", "CoordinateX", "CoordinateY"})
+                    moved = report["smoothing"]["moved_vertices"]
+                    self.assertGreater(moved, 100)
+                    if model.get("order", 1) == 1:
+                        self.assertGreaterEqual(sum(changed.values()), moved)
+                        self.assertLessEqual(sum(changed.values()), 2 * moved)
+
     def test_every_dialect_of_one_model_gives_the_same_places(self):
         # Gmsh writes 16 digits as text, which is not always all of a number.
         for dialects in (("msh41", "msh40", "msh22"), ("msh41_binary", "msh22_binary")):
@@ -182,6 +203,19 @@ class OpenedByGmsh(GmshTest):
                         self.assertEqual(moved, report["smoothing"]["moved_vertices"])
                     names = {name for name, _ in gmsh_model.everything_but_points()["groups"].values()}
                     self.assertLessEqual({"air", "steel_core", "inlet", "outlet", "walls", "hole"}, names)
+
+    def test_groups_names_and_elements_of_hdf5_are_in_place(self):
+        for dialect in HDF5_DIALECTS:
+            for model in ({}, {"order": 2}, {"quads": True}):
+                with self.subTest(dialect=dialect, **model):
+                    name = self.write_model(dialect, **model)
+                    output, report = self.smooth(name)
+                    before, after = self.open_both(name, output)
+                    moved = sum(before[tag] != after[tag] for tag in before)
+                    if model.get("order", 1) == 1:
+                        self.assertEqual(moved, report["smoothing"]["moved_vertices"])
+                    groups = {name.strip() for name, _ in gmsh_model.everything_but_points()["groups"].values()}
+                    self.assertEqual(groups, set(gmsh_model.GROUPS.values()))
 
     def test_partitions_and_ghosts_are_in_place(self):
         gmsh_model.build()
@@ -390,6 +424,28 @@ class MshBecomesUnv(GmshTest):
     def rounded(self, cells):
         """Gmsh itself lays periodic nodes of MSH files on each other, to the last digit."""
         return sorted(tuple(sorted(tuple(round(float(x), 12) for x in place) for place in cell)) for cell in cells)
+
+
+class MshBecomesHdf5(GmshTest):
+
+    def test_groups_names_and_elements_reach_gmsh(self):
+        for dialect in HDF5_DIALECTS:
+            for model in ({}, {"order": 2}, {"quads": True}):
+                with self.subTest(dialect=dialect, **model):
+                    name = self.write_model("msh41", **model)
+                    gmsh_model.open_file(self.path(name))
+                    expected = self.groups()
+                    self.assertEqual(len(expected), 7)
+                    held = self.hold_everything(self.report("quality", name)["input"]["vertices"])
+                    self.run_tool("smooth", name, "converted." + dialect, *held)
+                    gmsh_model.open_file(self.path("converted." + dialect))
+                    self.assertEqual(self.groups(), expected)
+
+    def groups(self):
+        # MED fills names up with blanks. Gmsh lays periodic nodes of MSH files on each other, to the last digit.
+        return {(dimension, name.strip()): sorted(tuple(sorted(tuple(round(float(x), 12) for x in place)
+                                                               for place in cell)) for cell in cells)
+                for (dimension, name), cells in gmsh_model.group_cells().items()}
 
 
 class PartsInGroups(GmshTest):

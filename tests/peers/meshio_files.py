@@ -7,10 +7,11 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "end_to_end"))
 
 try:
+    import h5py  # noqa: F401, which meshio needs for MED
     import meshio
     import numpy
 except ImportError as missing:
-    print(f"skipped: meshio is not installed where this runs ({missing})")
+    print(f"skipped: meshio or h5py is not installed where this runs ({missing})")
     sys.exit(77)
 
 import nastran_columns
@@ -34,6 +35,7 @@ OTHER_DIALECTS = {
     "gmsh41_binary": (".msh", {"file_format": "gmsh", "binary": True}),
     "gmsh22_binary": (".msh", {"file_format": "gmsh22", "binary": True}),
     "meditb": (".meshb", {"file_format": "medit"}),
+    "med": (".med", {"file_format": "med"}),
 }
 EVERY_DIALECT = {**TEXT_DIALECTS, **COLUMN_DIALECTS, **OTHER_DIALECTS}
 
@@ -82,6 +84,13 @@ def mesh_for(dialect):
     if kind == "medit":
         return meshio.Mesh(points[:, :2], cells, cell_data={"medit:ref": arrays},
                            point_data={"medit:ref": numpy.arange(len(points)) % 3})
+    if kind == "med":
+        mesh = meshio.Mesh(points, cells, cell_data={"cell_tags": [-numpy.array(marks), -numpy.array(materials)]},
+                           point_data={"point_tags": numpy.where(numpy.arange(len(points)) == 12, 1, 0),
+                                       "heat": points[:, 0]})
+        mesh.cell_tags = {-1: ["left", "all"], -2: ["right", "all"], -3: ["wall"], -4: ["outlet"], -5: ["inlet"]}
+        mesh.point_tags = {1: ["corner"]}
+        return mesh
     if kind == "nastran":
         return meshio.Mesh(points, cells, cell_data={"nastran:ref": arrays})
     if kind == "abaqus":
@@ -102,7 +111,10 @@ class MeshioTest(tool.ToolTest):
         return name
 
     def read_mesh(self, name):
-        return meshio.read(self.path(name))
+        mesh = meshio.read(self.path(name))
+        if name.endswith(".med"):
+            self.assertTrue(mesh.cell_tags)
+        return mesh
 
     def assert_same_but_points(self, before, after):
         self.assertEqual([block.type for block in after.cells], [block.type for block in before.cells])
@@ -177,7 +189,7 @@ class Converted(MeshioTest):
     """From Gmsh's format, which holds everything, into each of the others that meshio reads."""
 
     TARGETS = {".mesh": "medit:ref", ".meshb": "medit:ref", ".su2": "su2:tag", ".inp": None,
-               ".bdf": "nastran:ref"}
+               ".bdf": "nastran:ref", ".med": None}
 
     def test_elements_and_their_groups_are_the_same(self):
         name = self.write_mesh("gmsh22")
@@ -194,6 +206,12 @@ class Converted(MeshioTest):
                     found = mesh.cell_data_dict[array]["triangle"]
                     self.assertEqual(sorted(zip(map(tuple, cells["triangle"].tolist()), found.tolist())),
                                      sorted(zip(triangles, materials)))
+                if extension == ".med":
+                    names = {number: groups[0] for number, groups in mesh.cell_tags.items()}
+                    self.assertEqual(sorted(names.values()), ["inlet", "left", "outlet", "right", "wall"])
+                    found = [names[number] for number in mesh.cell_data_dict["cell_tags"]["triangle"]]
+                    self.assertEqual(sorted(zip(map(tuple, cells["triangle"].tolist()), found)),
+                                     sorted(zip(triangles, [["left", "right"][m - 1] for m in materials])))
                 if extension == ".inp":
                     self.assertLessEqual({"left", "right", "wall", "inlet", "outlet"}, set(mesh.cell_sets))
                 if extension == ".su2":

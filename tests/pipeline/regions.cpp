@@ -129,7 +129,8 @@ TEST_CASE("what programs call regions is known, in whatever case and however the
         "vtkCompositeIndex", "zone", "property_id", "PartID", "su2:tag", "nastran:ref", "avsucd:material",
         // What the readers here call them.
         "gmsh:physical", "gmsh:geometrical", "medit:ref", "freefem:label", "su2:zone", "su2:marker", "abaqus:elset",
-        "nastran:pid", "2dm:material", "mfem:attribute", "triangle:attribute", "unv:group", "unv:pid"}) {
+        "nastran:pid", "2dm:material", "mfem:attribute", "triangle:attribute", "unv:group", "unv:pid", "med:group",
+        "med:family", "cgns:group"}) {
     std::string upper = name;
     std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     for (const std::string& written : {std::string(name), upper}) {

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/mesh_io/cgns/cgns_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/cgns/cgns_elements.h"
+#include "trismooth/mesh_io/document/cells/group_lists.h"
+#include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/hdf5/hdf5_writer.h"
+
+namespace trismooth {
+
+namespace {
+
+/// Characters of the name of a node.
+constexpr std::size_t most_name_size = 32;
+/// A slash stands between the names of a path.
+constexpr std::string_view no_name_characters = "/";
+const std::string base_path = "/Base";
+const std::string zone_path = base_path + "/Zone";
+
+/// The cells of each type in the order in which they are written; polygons
+/// behind all others.
+std::vector<std::vector<std::size_t>> cells_by_type(const CellList& cells) {
+  const std::span<const CgnsElement> elements = cgns_elements();
+  std::vector<std::vector<std::size_t>> sections(elements.size() + 1);
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (const CgnsElement* const element = cgns_element_of_cell(cells.types[cell], cells[cell].size())) {
+      sections[static_cast<std::size_t>(element - elements.data())].push_back(cell);
+    } else if (cells.types[cell] == cell_type::polygon && cells[cell].size() >= 3) {
+      sections.back().push_back(cell);
+    }
+  }
+  return sections;
+}
+
+class CgnsWriter {
+ public:
+  CgnsWriter(const std::filesystem::path& path, const MeshDocument& document)
+      : file_(Hdf5Writer::make(path)), document_(document), lists_(list_groups(document)) {}
+
+  void write() {
+    write_root();
+    const std::vector<double>& points = document_.points;
+    for (std::size_t z = 2; z < points.size() && axes_ == 2; z += 3) {
+      axes_ = points[z] != 0 || std::signbit(points[z]) ? 3 : 2;
+    }
+    const std::vector<std::vector<std::size_t>> sections = cells_by_type(document_.cells);
+    write_base(sections);
+    write_coordinates();
+    write_sections(sections);
+    write_groups();
+    file_.close();
+  }
+
+ private:
+  /// CGNS's names of types: I4, R8, C1, and MT for nodes without data.
+  void make_node(const std::string& path, std::string_view label, std::string_view type) {
+    file_.make_group(path);
+    set_head(path, std::string_view(path).substr(path.rfind('/') + 1), label, type);
+    constexpr std::array<std::int32_t, 1> flags{1};
+    file_.set_attribute<std::int32_t>(path, "flags", flags);
+  }
+
+  void set_head(const std::string& path, std::string_view name, std::string_view label, std::string_view type) {
+    file_.set_attribute(path, "name", name, most_name_size + 1);
+    file_.set_attribute(path, "label", label, most_name_size + 1);
+    file_.set_attribute(path, "type", type, 3);
+  }
+
+  template <class T>
+  void add(const std::string& path, std::string_view label, std::string_view type, const std::vector<T>& values,
+           std::vector<std::uint64_t> extents = {}) {
+    make_node(path, label, type);
+    if (extents.empty()) {
+      extents = {values.size()};
+    }
+    file_.write<T>(path + "/ data", extents, values);
+  }
+
+  void add_text(const std::string& path, std::string_view label, std::string_view text) {
+    add(path, label, "C1", std::vector<std::int8_t>(text.begin(), text.end()));
+  }
+
+  void write_root() {
+    set_head("/", "HDF5 MotherNode", "Root Node of HDF5 File", "MT");
+    const auto write_text = [this](const std::string& name, std::string text, std::size_t size) {
+      text.resize(size, '\0');
+      const std::uint64_t extent = size;
+      file_.write<std::int8_t>(name, std::span(&extent, 1), std::vector<std::int8_t>(text.begin(), text.end()));
+    };
+    write_text("/ format", "IEEE_LITTLE_32", 15);
+    write_text("/ hdf5version", "HDF5 Version 1.8", most_name_size + 1);
+    // The first that has offsets of polygons.
+    constexpr float version = 3.4F;
+    add("/CGNSLibraryVersion", "CGNSLibraryVersion_t", "R4", std::vector<float>{version});
+  }
+
+  void write_base(const std::vector<std::vector<std::size_t>>& sections) {
+    int dimension = 1;
+    std::size_t cells = 0;
+    for (int pass = 0; pass < 2; ++pass) {
+      for (const std::vector<std::size_t>& section : sections) {
+        const int own = section.empty() ? 0 : cell_type::dimension(document_.cells.types[section.front()]);
+        cells += pass == 1 && own == dimension ? section.size() : 0;
+        dimension = std::max(dimension, own);
+      }
+    }
+    dimension_ = dimension;
+    add(base_path, "CGNSBase_t", "I4", std::vector<std::int32_t>{dimension, static_cast<std::int32_t>(axes_)});
+    add(zone_path, "Zone_t", "I4",
+        std::vector<std::int32_t>{static_cast<std::int32_t>(document_.point_count()), static_cast<std::int32_t>(cells),
+                                  0},
+        {3, 1});
+    add_text(zone_path + "/ZoneType", "ZoneType_t", "Unstructured");
+  }
+
+  void write_coordinates() {
+    const std::string grid = zone_path + "/GridCoordinates";
+    make_node(grid, "GridCoordinates_t", "MT");
+    for (std::size_t axis = 0; axis < axes_; ++axis) {
+      const auto write_as = [&](auto zero, std::string_view type) {
+        std::vector<decltype(zero)> values;
+        values.reserve(document_.point_count());
+        for (std::size_t at = axis; at < document_.points.size(); at += 3) {
+          values.push_back(static_cast<decltype(zero)>(document_.points[at]));
+        }
+        add(grid + "/Coordinate" + static_cast<char>('X' + axis), "DataArray_t", type, values);
+      };
+      document_.point_type == ScalarType::float32 ? write_as(float{}, "R4") : write_as(double{}, "R8");
+    }
+  }
+
+  void write_sections(const std::vector<std::vector<std::size_t>>& sections) {
+    const CellList& cells = document_.cells;
+    numbers_.assign(cells.size(), 0);
+    std::int32_t next = 1;
+    for (std::size_t i = 0; i < sections.size(); ++i) {
+      if (sections[i].empty()) {
+        continue;
+      }
+      const bool are_polygons = i + 1 == sections.size();
+      std::vector<std::int32_t> nodes;
+      std::vector<std::int32_t> begins{0};
+      for (const std::size_t cell : sections[i]) {
+        const std::span<const std::int32_t> vertices = cells[cell];
+        const std::size_t first = nodes.size();
+        nodes.resize(first + vertices.size());
+        for (std::size_t k = 0; k < vertices.size(); ++k) {
+          nodes[first + (are_polygons ? k : cgns_elements()[i].place(k))] = vertices[k] + 1;
+        }
+        begins.push_back(static_cast<std::int32_t>(nodes.size()));
+        numbers_[cell] = next++;
+      }
+      const std::int64_t type = are_polygons ? cgns_type::polygons : cgns_elements()[i].number;
+      const std::string section = zone_path + "/Elements_" + std::to_string(type);
+      add(section, "Elements_t", "I4", std::vector<std::int32_t>{static_cast<std::int32_t>(type), 0});
+      const auto count = static_cast<std::int32_t>(sections[i].size());
+      add(section + "/ElementRange", "IndexRange_t", "I4", std::vector<std::int32_t>{next - count, next - 1});
+      add(section + "/ElementConnectivity", "DataArray_t", "I4", nodes);
+      if (are_polygons) {
+        add(section + "/ElementStartOffset", "DataArray_t", "I4", begins);
+      }
+    }
+  }
+
+  /// A condition for the cells of each dimension that a group has, and one for
+  /// its points.
+  void write_groups() {
+    if (lists_.names.empty()) {
+      return;
+    }
+    const std::vector<std::string> names = fit_names(lists_.names, most_name_size, no_name_characters).names;
+    std::map<std::pair<std::size_t, std::string_view>, std::vector<std::int32_t>> conditions;
+    for (std::size_t cell = 0; cell < lists_.of_cells.size(); ++cell) {
+      const int dimension = cell_type::dimension(document_.cells.types[cell]);
+      for (const std::size_t group : lists_.of_cells[cell]) {
+        if (numbers_[cell] > 0) {
+          conditions[{group, location_of(dimension)}].push_back(numbers_[cell]);
+        }
+      }
+    }
+    for (std::size_t point = 0; point < lists_.of_points.size(); ++point) {
+      for (const std::size_t group : lists_.of_points[point]) {
+        conditions[{group, "Vertex"}].push_back(static_cast<std::int32_t>(point) + 1);
+      }
+    }
+    const std::string all = zone_path + "/ZoneBC";
+    make_node(all, "ZoneBC_t", "MT");
+    std::size_t number = 0;
+    for (const auto& [key, members] : conditions) {
+      const std::string condition = all + "/Group_" + std::to_string(++number);
+      add_text(condition, "BC_t", "FamilySpecified");
+      add(condition + "/PointList", "IndexArray_t", "I4", members, {members.size(), 1});
+      add_text(condition + "/GridLocation", "GridLocation_t", key.second);
+      add_text(condition + "/FamilyName", "FamilyName_t", names[key.first]);
+    }
+    for (const std::string& name : names) {
+      const std::string family = base_path + "/" + name;
+      make_node(family, "Family_t", "MT");
+      // Gmsh's name of the group.
+      add_text(family + "/" + name, "FamilyName_t", name);
+    }
+  }
+
+  std::string_view location_of(int dimension) const {
+    return dimension == dimension_ ? "CellCenter" : dimension == 2 ? "FaceCenter" : "EdgeCenter";
+  }
+
+  Hdf5Writer file_;
+  const MeshDocument& document_;
+  GroupLists lists_;
+  std::size_t axes_ = 2;
+  int dimension_ = 2;
+  std::vector<std::int32_t> numbers_;  ///< of the element of each cell; 0: none
+};
+
+}  // namespace
+
+void write_cgns(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& /*workers*/) {
+  CgnsWriter(path, document).write();
+}
+
+std::vector<std::string> lost_in_cgns(const MeshDocument& document) {
+  std::vector<std::uint8_t> types;
+  for (const CgnsElement& element : cgns_elements()) {
+    if (element.is_written) {
+      types.push_back(element.type);
+    }
+  }
+  types.push_back(cell_type::polygon);
+  const GroupLists lists = list_groups(document);
+  std::vector<std::string> sentences =
+      describe_lost_cells("CGNS", "points, lines, faces and solids", types, document.cells);
+  std::ranges::move(describe_lost_arrays("CGNS", document, {.cell = lists.array}), std::back_inserter(sentences));
+  if (const FittedNames names = fit_names(lists.names, most_name_size, no_name_characters); !names.renamed.empty()) {
+    sentences.push_back("CGNS has names of " + std::to_string(most_name_size) +
+                        " characters at most, without slashes and without "
+                        "blanks around them: changed are " +
+                        list_text(names.renamed));
+  }
+  std::ranges::move(describe_new_order("CGNS", types, document.cells), std::back_inserter(sentences));
+  return sentences;
+}
+
+}  // namespace trismooth

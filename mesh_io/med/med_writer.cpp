@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/mesh_io/med/med_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/hdf5/hdf5_writer.h"
+#include "trismooth/mesh_io/med/med_elements.h"
+#include "trismooth/mesh_io/med/med_families.h"
+
+namespace trismooth {
+
+namespace {
+
+const std::string mesh_name = "mesh";
+const std::string all_families = "/FAS/" + mesh_name;
+constexpr std::string_view all_entities = "MED_NO_PROFILE_INTERNAL";
+/// No step in time.
+constexpr std::int64_t no_step = -1;
+
+class MedWriter {
+ public:
+  MedWriter(const std::filesystem::path& path, const MeshDocument& document)
+      : file_(Hdf5Writer::make(path)), document_(document), families_(plan_med_families(document)) {}
+
+  void write() {
+    set("/INFOS_GENERALES", {{"MAJ", 3}, {"MIN", 0}, {"REL", 0}});
+    write_mesh_head();
+    write_nodes();
+    write_elements();
+    set(all_families + "/FAMILLE_ZERO", {{"NUM", 0}});
+    write_families("NOEUD", families_.of_points);
+    write_families("ELEME", families_.of_cells);
+    file_.close();
+  }
+
+ private:
+  /// Makes the group, with these attributes.
+  void set(const std::string& group, std::initializer_list<std::pair<const char*, std::int64_t>> numbers) {
+    file_.make_group(group);
+    for (const auto& [name, number] : numbers) {
+      file_.set_attribute(group, name, number);
+    }
+  }
+
+  void set_text(const std::string& group, const std::string& name, std::string_view text) {
+    file_.set_attribute(group, name, text);
+  }
+
+  /// `count`: of nodes or elements that the values are of.
+  template <class T>
+  void write_list(const std::string& dataset, const std::vector<T>& values, std::size_t count) {
+    const std::uint64_t extent = values.size();
+    file_.write<T>(dataset, std::span(&extent, 1), values);
+    file_.set_attribute(dataset, "CGT", std::int64_t{1});
+    file_.set_attribute(dataset, "NBR", static_cast<std::int64_t>(count));
+  }
+
+  void write_mesh_head() {
+    const std::vector<double>& points = document_.points;
+    for (std::size_t z = 2; z < points.size() && axes_ == 2; z += 3) {
+      axes_ = points[z] != 0 || std::signbit(points[z]) ? 3 : 2;
+    }
+    std::int64_t dimension = 0;
+    for (const std::uint8_t type : document_.cells.types) {
+      dimension = std::max<std::int64_t>(dimension, cell_type::dimension(type));
+    }
+    const std::string mesh = "/ENS_MAA/" + mesh_name;
+    set(mesh, {{"DIM", std::min(dimension, axes_)},
+               {"ESP", axes_},
+               {"REP", 0},
+               {"SRT", 1},
+               {"TYP", 0},
+               {"NXT", no_step},
+               {"NXI", no_step}});
+    set_text(mesh, "DES", "");
+    set_text(mesh, "UNI", "");
+    set_text(mesh, "UNT", "");
+    std::string names;
+    for (std::int64_t axis = 0; axis < axes_; ++axis) {
+      constexpr std::size_t name_size = 16;
+      std::string name(1, static_cast<char>('X' + axis));
+      name.resize(name_size, ' ');
+      names += name;
+    }
+    set_text(mesh, "NOM", names);
+    set(step_, {{"CGT", 1},
+                {"NDT", no_step},
+                {"NOR", no_step},
+                {"NXT", no_step},
+                {"NXI", no_step},
+                {"PVT", no_step},
+                {"PVI", no_step}});
+    file_.set_attribute(step_, "PDT", 0.0);
+  }
+
+  void write_nodes() {
+    const std::string nodes = step_ + "/NOE";
+    set(nodes, {{"CGT", 1}, {"CGS", 1}});
+    set_text(nodes, "PFL", all_entities);
+    const std::size_t count = document_.point_count();
+    std::vector<double> by_axis;
+    by_axis.reserve(count * static_cast<std::size_t>(axes_));
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(axes_); ++axis) {
+      for (std::size_t i = 0; i < count; ++i) {
+        by_axis.push_back(document_.points[3 * i + axis]);
+      }
+    }
+    write_list(nodes + "/COO", by_axis, count);
+    if (!families_.point_families.empty()) {
+      write_list(nodes + "/FAM", families_.point_families, count);
+    }
+  }
+
+  void write_elements() {
+    const CellList& cells = document_.cells;
+    set(step_ + "/MAI", {{"CGT", 1}});
+    std::vector<std::vector<std::size_t>> of_element(med_elements().size());
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      if (const MedElement* const element = med_element_of_cell(cells.types[cell], cells[cell].size())) {
+        of_element[static_cast<std::size_t>(element - med_elements().data())].push_back(cell);
+      }
+    }
+    for (std::size_t i = 0; i < of_element.size(); ++i) {
+      if (!of_element[i].empty()) {
+        write_elements_of(med_elements()[i], of_element[i]);
+      }
+    }
+  }
+
+  void write_elements_of(const MedElement& element, const std::vector<std::size_t>& members) {
+    const CellList& cells = document_.cells;
+    const std::string group = step_ + "/MAI/" + std::string(element.name);
+    set(group, {{"CGT", 1}, {"CGS", 1}, {"GEO", element.number}});
+    set_text(group, "PFL", all_entities);
+    std::vector<std::int64_t> nodes;
+    if (element.nodes == 0) {
+      std::vector<std::int64_t> begins{1};
+      for (const std::size_t cell : members) {
+        for (const std::int32_t vertex : cells[cell]) {
+          nodes.push_back(std::int64_t{vertex} + 1);
+        }
+        begins.push_back(std::ssize(nodes) + 1);
+      }
+      write_list(group + "/IND", begins, begins.size());
+      write_list(group + "/NOD", nodes, nodes.size());
+    } else {
+      nodes.resize(element.nodes * members.size());
+      for (std::size_t i = 0; i < members.size(); ++i) {
+        const std::span<const std::int32_t> vertices = cells[members[i]];
+        for (std::size_t k = 0; k < element.nodes; ++k) {
+          nodes[element.place(k) * members.size() + i] = std::int64_t{vertices[k]} + 1;
+        }
+      }
+      write_list(group + "/NOD", nodes, members.size());
+    }
+    if (!families_.cell_families.empty()) {
+      std::vector<std::int64_t> numbers;
+      for (const std::size_t cell : members) {
+        numbers.push_back(families_.cell_families[cell]);
+      }
+      write_list(group + "/FAM", numbers, members.size());
+    }
+  }
+
+  void write_families(const std::string& kind, const std::vector<MedFamily>& families) {
+    for (const MedFamily& family : families) {
+      const std::string group = all_families + "/" + kind + "/FAM_" + std::to_string(family.number);
+      set(group, {{"NUM", family.number}});
+      set(group + "/GRO", {{"NBR", std::ssize(family.groups)}});
+      std::string names;
+      for (const std::size_t place : family.groups) {
+        std::string name = families_.group_names[place];
+        name.resize(med_group_name_size, ' ');
+        names += name;
+      }
+      file_.write_rows(group + "/GRO/NOM", med_group_name_size, names);
+    }
+  }
+
+  Hdf5Writer file_;
+  const MeshDocument& document_;
+  MedFamilies families_;
+  std::int64_t axes_ = 2;
+  const std::string step_ = "/ENS_MAA/" + mesh_name + "/-0000000000000000001-0000000000000000001";
+};
+
+}  // namespace
+
+void write_med(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& /*workers*/) {
+  MedWriter(path, document).write();
+}
+
+std::vector<std::string> lost_in_med(const MeshDocument& document) {
+  std::vector<std::uint8_t> types;
+  for (const MedElement& element : med_elements()) {
+    if (element.is_written) {
+      types.push_back(element.type);
+    }
+  }
+  const MedFamilies families = plan_med_families(document);
+  std::vector<std::string> sentences =
+      describe_lost_cells("MED", "points, lines, faces and solids", types, document.cells);
+  std::ranges::move(describe_lost_arrays("MED", document, {.cell = families.array}), std::back_inserter(sentences));
+  if (!families.renamed.empty()) {
+    sentences.push_back("MED has names of groups of " + std::to_string(med_group_name_size) +
+                        " characters at most, without blanks around them: changed are " + list_text(families.renamed));
+  }
+  std::ranges::move(describe_new_order("MED", types, document.cells), std::back_inserter(sentences));
+  return sentences;
+}
+
+}  // namespace trismooth
