@@ -119,10 +119,10 @@ class CgnsReader {
     }
   }
 
-  /// The groups that a zone or a condition is in.
-  std::vector<std::string> group_names(const CgnsNode& node) {
-    for (const CgnsNode& family : tree_.children(node.path, "FamilyName_t")) {
-      if (std::string name = tree_.text(family); !name.empty()) {
+  /// The groups that a condition with these children makes.
+  std::vector<std::string> group_names(const CgnsNode& node, const std::vector<CgnsNode>& children) {
+    for (const CgnsNode& family : children) {
+      if (std::string name = family.label == "FamilyName_t" ? tree_.text(family) : std::string(); !name.empty()) {
         const auto known = families_.find(name);
         return known == families_.end() ? std::vector<std::string>{std::move(name)} : known->second;
       }
@@ -199,10 +199,10 @@ class CgnsReader {
     columns_.push_back({data, 0, zone.points, {.component = static_cast<std::uint8_t>(axis)}, zone.first_point});
   }
 
-  /// "Vertex" where a node does not say where its values or members are.
-  std::string location_of(const CgnsNode& node) {
-    const std::vector<CgnsNode> locations = tree_.children(node.path, "GridLocation_t");
-    const std::string location = locations.empty() ? std::string() : tree_.text(locations.front());
+  /// "Vertex" where a node with these children does not say where its members are.
+  std::string location_of(const std::vector<CgnsNode>& children) {
+    const auto node = std::ranges::find(children, "GridLocation_t", &CgnsNode::label);
+    const std::string location = node == children.end() ? std::string() : tree_.text(*node);
     return location.empty() ? "Vertex" : location;
   }
 
@@ -214,8 +214,8 @@ class CgnsReader {
     bool of_elements = false;
   };
 
-  Members members_of(const CgnsNode& node) {
-    for (const CgnsNode& child : tree_.children(node.path, "")) {
+  Members members_of(const std::vector<CgnsNode>& children) {
+    for (const CgnsNode& child : children) {
       const bool is_range = child.label == "IndexRange_t";
       if (!is_range && child.label != "IndexArray_t") {
         continue;
@@ -224,7 +224,7 @@ class CgnsReader {
       if (!of_elements && child.name != "PointList" && child.name != "PointRange") {
         continue;
       }
-      Members members{tree_.integers(child), is_range, of_elements || location_of(node) != "Vertex"};
+      Members members{tree_.integers(child), is_range, of_elements || location_of(children) != "Vertex"};
       if (is_range && (members.numbers.size() != 2 || members.numbers[0] > members.numbers[1])) {
         tree_.fail_at(child, "is no range: expected a first and a last number");
       }
@@ -265,8 +265,9 @@ class CgnsReader {
   void read_conditions(const CgnsZone& zone) {
     for (const CgnsNode& all : tree_.children(zone.node.path, "ZoneBC_t")) {
       for (const CgnsNode& condition : tree_.children(all.path, "BC_t")) {
-        const Members members = members_of(condition);
-        for (const std::string& name : group_names(condition)) {
+        const std::vector<CgnsNode> children = tree_.children(condition.path, "");
+        const Members members = members_of(children);
+        for (const std::string& name : group_names(condition, children)) {
           std::vector<std::int32_t>& group = (members.of_elements ? of_cells_ : of_points_).of(name);
           tree_.spend(members.numbers.size());
           for_each(condition, zone, members, [&group](std::int32_t place) { group.push_back(place); });
@@ -279,7 +280,8 @@ class CgnsReader {
   void read_connectivity(const CgnsZone& zone) {
     for (const CgnsNode& all : tree_.children(zone.node.path, "ZoneGridConnectivity_t")) {
       for (const CgnsNode& link : tree_.children(all.path, "GridConnectivity_t")) {
-        const Members own = members_of(link);
+        const std::vector<CgnsNode> children = tree_.children(link.path, "");
+        const Members own = members_of(children);
         if (own.of_elements) {
           continue;
         }
@@ -288,8 +290,8 @@ class CgnsReader {
         linked_.insert(linked_.end(), places.begin(), places.end());
         const std::string other_name = tree_.text(link);
         const auto other = std::ranges::find(zones_, other_name, [](const CgnsZone& z) { return z.node.name; });
-        const auto donors = tree_.child(link, "PointListDonor", "IndexArray_t");
-        if (other == zones_.end() || !donors) {
+        const auto donors = std::ranges::find(children, "PointListDonor", &CgnsNode::name);
+        if (other == zones_.end() || donors == children.end()) {
           continue;
         }
         const std::vector<std::int64_t> numbers = tree_.integers(*donors);

@@ -27,17 +27,15 @@ std::vector<CgnsNode> CgnsTree::children(const std::string& path, std::string_vi
     if (member.kind != Hdf5Kind::group || !file_.has_attribute(node.path, "label")) {
       continue;
     }
-    // A node that is a link has another one's data behind a link of HDF5.
-    if (file_.has_attribute(node.path, "type")) {
-      const std::vector<std::string> type = file_.read_attribute_texts(node.path, "type");
-      if (type.size() == 1 && type.front() == "LK") {
-        fail_at(node,
-                "is a link to elsewhere, which is not followed: write "
-                "the mesh as one file without links");
-      }
-    }
     const std::vector<std::string> labels = file_.read_attribute_texts(node.path, "label");
     node.label = labels.size() == 1 ? labels.front() : std::string();
+    // A node that is a link has no label of its own.
+    if (node.label.empty() && file_.has_attribute(node.path, "type")) {
+      const std::vector<std::string> type = file_.read_attribute_texts(node.path, "type");
+      if (type.size() == 1 && type.front() == "LK") {
+        fail_at(node, "is a link to elsewhere, which is not followed: write the mesh as one file without links");
+      }
+    }
     if (label.empty() || node.label == label) {
       found.push_back(std::move(node));
     }
