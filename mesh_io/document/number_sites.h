@@ -31,7 +31,8 @@ struct SiteColumn {
   bool operator==(const SiteColumn&) const = default;
 };
 
-/// Sites of a binary file in equal steps, whose numbers of 8 bytes stand side by side.
+/// Sites of a binary file in equal steps, whose numbers of 8 bytes stand side by side; of any type where a site is one
+/// number.
 struct EvenSites {
   std::uint64_t begin = 0;  ///< byte offset of the first one
   std::uint64_t step = 0;   ///< bytes from each to the next
