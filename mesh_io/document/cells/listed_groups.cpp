@@ -91,7 +91,7 @@ void add_listed_groups(const std::string& array, std::vector<ListedGroup> groups
   ArrayDescription description;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     for (std::size_t dimension = 0; dimension < named[i].size(); ++dimension) {
-      if (named[i].at(dimension)) {
+      if (named[i].at(dimension) && !groups[i].name.empty()) {
         description.value_names.push_back({values[i], static_cast<int>(dimension), groups[i].name});
       }
     }
@@ -100,7 +100,9 @@ void add_listed_groups(const std::string& array, std::vector<ListedGroup> groups
     }
   }
   DataArray of_cells = make_data_array(array, 1, std::move(of_cell));
-  of_cells.description = std::make_shared<const ArrayDescription>(std::move(description));
+  if (!description.empty()) {
+    of_cells.description = std::make_shared<const ArrayDescription>(std::move(description));
+  }
   document.cell_arrays.push_back(std::move(of_cells));
 }
 

@@ -11,8 +11,8 @@ namespace trismooth {
 
 /// A group as a file lists it: groups may overlap, and have cells of several dimensions.
 struct ListedGroup {
-  std::int64_t number = 0;  ///< 0: none
-  std::string name;
+  std::int64_t number = 0;          ///< 0: none
+  std::string name;                 ///< empty: none
   std::vector<std::int32_t> cells;  ///< ascending, each once
 };
 
