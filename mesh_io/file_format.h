@@ -32,6 +32,8 @@ enum class FileFormat : std::uint8_t {
   nastran,
   unv,
   xdmf,
+  exodus,
+  ugrid,
   med,
   cgns
 };

@@ -101,6 +101,7 @@ struct MeshDocument {
   std::vector<std::string> notes;   ///< what the reader has to say about the file, one sentence each: among them
                                     ///< what only a file of the same format keeps
   std::vector<std::string> losses;  ///< what no file that is written from it gets, one sentence each
+  bool is_geographic = false;       ///< the file says that x and y are longitude and latitude, in degrees
   std::shared_ptr<const OriginalFile> original;  ///< null for a document that was not read from a file
 
   /// Points.

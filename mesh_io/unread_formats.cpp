@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/file_format.h"
+#include "trismooth/mesh_io/netcdf/netcdf_header.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_head.h"
@@ -22,34 +23,24 @@ struct ExtensionOfUnread {
   UnreadFormat format;
 };
 
-constexpr UnreadFormat exodus{"Exodus II", "meshio convert in.exo out.vtu"};
 constexpr UnreadFormat fluent{"Ansys Fluent", "meshio convert --input-format ansys in.msh out.vtu"};
 constexpr UnreadFormat netgen{"Netgen", "meshio convert in.vol out.vtu"};
-constexpr UnreadFormat netcdf{"NetCDF (as Exodus II, UGRID and models of the ocean have it)", exodus.converter};
+constexpr UnreadFormat netcdf{"NetCDF without a mesh of Exodus II or UGRID", ""};
 constexpr UnreadFormat selafin{"Selafin (Telemac)", ""};
 constexpr UnreadFormat mike{"MIKE (DHI)", ""};
 constexpr UnreadFormat jigsaw{"JIGSAW", ""};
 constexpr UnreadFormat utf_16{"text in UTF-16", "iconv -f UTF-16 -t UTF-8 in.off > out.off"};
 
 constexpr auto by_extension = std::to_array<ExtensionOfUnread>({
-    {".exo", exodus},
-    {".e", exodus},
-    {".ex2", exodus},
-    {".g", exodus},
     {".cdb", {"an Ansys archive (CDB)", ""}},
     {".vol", netgen},
     {".h5", {"HDF5", ""}},
     {".hdf5", {"HDF5", ""}},
-    {".nc", netcdf},
     {".slf", selafin},
     {".sel", selafin},
     {".dfsu", mike},
     {".cas", fluent},
 });
-
-bool begins_as_netcdf(std::string_view bytes) {
-  return bytes.size() > 3 && bytes.starts_with("CDF") && (bytes[3] == 1 || bytes[3] == 2 || bytes[3] == 5);
-}
 
 /// The section "(0 "comment")", "(0 grid written by ..." or "(2 dimension)" that such files open with.
 bool begins_as_fluent(std::string_view head) {
@@ -111,10 +102,10 @@ std::optional<UnreadFormat> unread_format_of(const std::filesystem::path& path) 
 
 std::optional<UnreadFormat> recognise_unread_format(std::string_view bytes) {
   const std::string_view head = text_head(bytes);
-  if (head.starts_with("\x89HDF\r\n\x1a\n"sv)) {
-    return UnreadFormat{"HDF5 (as Exodus II, XDMF and NetCDF 4 have it)", exodus.converter};
+  if (is_hdf5(bytes)) {
+    return UnreadFormat{"HDF5 without a mesh of Exodus II, UGRID, MED or CGNS (of XDMF give the .xdmf file)", ""};
   }
-  if (begins_as_netcdf(head)) {
+  if (is_classic_netcdf(bytes)) {
     return netcdf;
   }
   if (begins_as_utf_16(bytes)) {

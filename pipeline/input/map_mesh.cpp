@@ -146,6 +146,9 @@ void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::files
 }
 
 bool looks_geographic(const PlanarMesh& mesh, const MeshDocument& document) {
+  if (document.is_geographic) {
+    return true;
+  }
   const std::string_view format = to_string(document.format);
   if (format != "adcirc" && format != "2dm") {
     return false;

@@ -19,8 +19,8 @@ void lay_on_map(PlanarMesh& mesh, const MeshDocument& document, const std::files
 /// longitudes and latitudes, or at a pole.
 void require_degrees(const PlanarMesh& mesh, const MeshDocument& document, const std::filesystem::path& path);
 
-/// Whether x and y could well be longitude and latitude in degrees: a mesh of one of the formats that hold such ones,
-/// with coordinates in their range and an extent of more than 3.
+/// Whether x and y could well be longitude and latitude in degrees: the file says so, or it is of one of the formats
+/// that hold such ones, with coordinates in their range and an extent of more than 3.
 bool looks_geographic(const PlanarMesh& mesh, const MeshDocument& document);
 
 /// What the user should know of it then.

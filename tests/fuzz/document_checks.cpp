@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -93,6 +94,19 @@ std::string difference_of_arrays(const std::vector<DataArray>& a, const std::vec
   return {};
 }
 
+CellList in_order_of_vertices(const CellList& cells) {
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&cells](std::size_t a, std::size_t b) {
+    return std::ranges::lexicographical_compare(cells[a], cells[b]);
+  });
+  CellList sorted;
+  for (const std::size_t cell : order) {
+    sorted.append(cells.types[cell], cells[cell]);
+  }
+  return sorted;
+}
+
 }  // namespace
 
 void require_guarantees(const MeshDocument& document) {
@@ -152,6 +166,9 @@ MeshDocument held_cells(const MeshDocument& document, FileFormat format) {
   }
   for (const std::vector<std::uint8_t>& group : sample.cells) {
     add_cells([&group](std::uint8_t type) { return std::ranges::find(group, type) != group.end(); });
+  }
+  if (sample.has_own_order) {
+    held.cells = in_order_of_vertices(held.cells);
   }
   return held;
 }

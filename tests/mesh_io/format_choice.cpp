@@ -157,7 +157,7 @@ TEST_CASE("a file whose extension lies is read as what it is, with a note") {
 
 TEST_CASE("a file of a name that names no format is read where its content shows it") {
   const ScratchFolder folder;
-  for (const std::string name : {"mesh", "mesh.txt", "mesh.", ".off", "mesh.exo"}) {
+  for (const std::string name : {"mesh", "mesh.txt", "mesh.", ".off", "mesh.vol"}) {
     CAPTURE(name);
     const MeshDocument document = trismooth::read_mesh(folder.write(name, off_bytes));
     CHECK(document.format == FileFormat::off);
@@ -197,15 +197,15 @@ TEST_CASE("an unknown extension is told with all that are known, and the one tha
 }
 
 TEST_CASE("formats that are known and not read are named, with a way to a file that is") {
-  const std::string refused = refusal("plate.EXO", "?");
+  const std::string refused = refusal("plate.VOL", "?");
   CHECK(refused ==
-        "plate.EXO: is Exodus II, which is not read; 'meshio convert in.exo out.vtu' makes a file that is; "
+        "plate.VOL: is Netgen, which is not read; 'meshio convert in.vol out.vtu' makes a file that is; "
         "known are " +
             trismooth::titled_format_list());
   CHECK(says(refusal("plate.cdb", "?"), "plate.cdb: is an Ansys archive (CDB), which is not read; known are OFF"));
   const std::map<std::string, std::string> by_content{
       {"\x89HDF\r\n\x1a\n....", "is HDF5"},
-      {"CDF\x02....", "is NetCDF"},
+      {"CDF\x02....", "is NetCDF without a mesh"},
       {"(0 \"GAMBIT to Fluent File\")\n", "is Ansys Fluent"},
       {"(0 grid written by a program)\n(2 2)\n", "is Ansys Fluent"},
       {"mesh3d\ndimension\n2\n", "is Netgen"},

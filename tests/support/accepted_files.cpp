@@ -14,13 +14,15 @@ namespace accepted_files {
 /// One a format, each in a file of formats/.
 FormatSample off_sample(), obj_sample(), ply_sample(), stl_sample(), vtk_sample(), vtu_sample(), vtp_sample(),
     msh_sample(), medit_sample(), su2_sample(), inp_sample(), adcirc_sample(), sms_sample(), freefem_sample(),
-    mfem_sample(), triangle_sample(), nastran_sample(), unv_sample(), xdmf_sample(), med_sample(), cgns_sample();
+    mfem_sample(), triangle_sample(), nastran_sample(), unv_sample(), xdmf_sample(), exodus_sample(), ugrid_sample(),
+    med_sample(), cgns_sample();
 
 const std::vector<FormatSample>& format_samples() {
   static const std::vector<FormatSample> samples{
-      off_sample(),  obj_sample(),      ply_sample(),     stl_sample(), vtk_sample(),    vtu_sample(), vtp_sample(),
-      msh_sample(),  medit_sample(),    su2_sample(),     inp_sample(), adcirc_sample(), sms_sample(), freefem_sample(),
-      mfem_sample(), triangle_sample(), nastran_sample(), unv_sample(), xdmf_sample(),   med_sample(), cgns_sample()};
+      off_sample(),  obj_sample(),     ply_sample(),   stl_sample(),      vtk_sample(),     vtu_sample(),
+      vtp_sample(),  msh_sample(),     medit_sample(), su2_sample(),      inp_sample(),     adcirc_sample(),
+      sms_sample(),  freefem_sample(), mfem_sample(),  triangle_sample(), nastran_sample(), unv_sample(),
+      xdmf_sample(), exodus_sample(),  ugrid_sample(), med_sample(),      cgns_sample()};
   return samples;
 }
 

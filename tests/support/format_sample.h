@@ -36,6 +36,8 @@ struct FormatSample {
   Rest (*rest_of)(const AcceptedFile& file) = nullptr;
   /// The types of cells that files hold: groups, in whose order they list them. Empty: all types, in any order.
   std::vector<std::vector<std::uint8_t>> cells{};
+  /// Whether files that are written have cells of one of these groups in an order of their own.
+  bool has_own_order = false;
   /// Whether files hold cells of one of these types with so many vertices; null: always.
   bool (*holds_cell)(std::uint8_t type, std::size_t vertices) = nullptr;
   /// The point that comes back where that one was written from scratch; null: the same.

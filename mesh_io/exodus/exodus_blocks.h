@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trismooth/mesh_io/bytes/file_workers.h"
+#include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/mesh_io/netcdf/netcdf_file.h"
+
+namespace trismooth {
+
+/// A block of elements, whose cells follow each other.
+struct ExodusBlock {
+  std::size_t number = 0;  ///< in names of variables, from 1
+  std::string type;        ///< of its elements, as the file has it
+  std::size_t first_element = 0;
+  std::size_t elements = 0;
+  std::size_t first_cell = 0;
+  bool has_cells = true;  ///< a cell an element; else its elements are of faces, which are none of the document
+};
+
+/// The variables that are called that and a number, by their numbers.
+std::vector<std::pair<std::size_t, const NetcdfVariable*>> numbered_variables(const NetcdfFile& file,
+                                                                              std::string_view name);
+
+/// The ids, and the names, of blocks or sets by their numbers: those that the file does not have are the numbers, and
+/// empty. `ids` and `names` are the variables ("eb_prop1", "eb_names").
+class ExodusNames {
+ public:
+  ExodusNames(const NetcdfFile& file, std::string_view ids, std::string_view names);
+
+  std::int64_t id(std::size_t number) const;
+  std::string name(std::size_t number) const;
+  /// The name, or "side set 3".
+  std::string name_or(std::size_t number, std::string_view what) const;
+
+ private:
+  std::vector<std::int64_t> ids_;
+  std::vector<std::string> names_;
+};
+
+/// Adds the cells of all blocks to the document, whose points are there, and a note on elements that are not known.
+/// Throws ReadError.
+std::vector<ExodusBlock> add_exodus_blocks(const NetcdfFile& file, std::size_t axes, const FileWorkers& workers,
+                                           MeshDocument& document);
+
+/// Adds regions, lines, sets of points and of cells: what blocks and sets say. `axes` are those of the coordinates.
+/// Throws ReadError.
+void add_exodus_sets(const NetcdfFile& file, const std::vector<ExodusBlock>& blocks, std::size_t axes,
+                     MeshDocument& document);
+
+}  // namespace trismooth
