@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Exodus II and UGRID as netCDF4, meshio and VTK write and read them."""
+
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "end_to_end"))
+
+try:
+    import meshio
+    import netCDF4
+    import numpy
+    from vtkmodules.vtkIOExodus import vtkExodusIIReader
+except ImportError as missing:
+    print(f"skipped: what reads netCDF is not installed where this runs ({missing})")
+    sys.exit(77)
+
+import tool
+
+COLUMNS, ROWS = 12, 9
+# netCDF4's names of what a file is.
+FORMS = ("NETCDF3_CLASSIC", "NETCDF3_64BIT_OFFSET", "NETCDF3_64BIT_DATA", "NETCDF4", "NETCDF4_CLASSIC")
+
+
+def plate():
+    """Points, the inner ones moved about, and triangles; those of the left half first."""
+    points, left, right = [], [], []
+    for row in range(ROWS + 1):
+        for column in range(COLUMNS + 1):
+            angle = 2.399963 * len(points)
+            inner = 0 < row < ROWS and 0 < column < COLUMNS and column != COLUMNS // 2
+            points.append((column + (0.6 * (angle % 1 - 0.5) if inner else 0),
+                           row + (0.6 * ((3.7 * angle) % 1 - 0.5) if inner else 0)))
+    for row in range(ROWS):
+        for column in range(COLUMNS):
+            a = row * (COLUMNS + 1) + column
+            b, c, d = a + 1, a + COLUMNS + 2, a + COLUMNS + 1
+            (left if column < COLUMNS // 2 else right).extend([(a, b, c), (a, c, d)])
+    return numpy.array(points), numpy.array(left), numpy.array(right)
+
+
+def texts(file, name, dimension, values, length="len_name"):
+    size = len(file.dimensions[length])
+    variable = file.createVariable(name, "S1", (dimension, length))
+    variable[:] = netCDF4.stringtochar(numpy.array(values, dtype=f"S{size}"))
+
+
+def write_exodus(path, form, compress=False):
+    """Two blocks, the floor as a side set, corners as a node set, temperatures of two steps."""
+    points, left, right = plate()
+    with netCDF4.Dataset(path, "w", format=form) as file:
+        file.api_version = numpy.float32(8.11)
+        file.version = numpy.float32(8.11)
+        file.floating_point_word_size = 8
+        file.title = "a plate"
+        size = {"len_name": 33, "len_string": 33, "num_dim": 2, "num_nodes": len(points), "num_el_blk": 2,
+                "num_elem": len(left) + len(right), "num_el_in_blk1": len(left), "num_nod_per_el1": 3,
+                "num_el_in_blk2": len(right), "num_nod_per_el2": 3, "num_side_sets": 1,
+                "num_side_ss1": COLUMNS // 2, "num_node_sets": 1, "num_nod_ns1": 2, "num_nod_var": 1}
+        file.createDimension("time_step", None)
+        for name, length in size.items():
+            file.createDimension(name, length)
+        options = {"zlib": True, "shuffle": True} if compress else {}
+
+        def put(name, kind, dimensions, values, **more):
+            variable = file.createVariable(name, kind, dimensions, **more)
+            variable[:] = values
+            return variable
+
+        put("coordx", "f8", ("num_nodes",), points[:, 0], **options)
+        put("coordy", "f8", ("num_nodes",), points[:, 1], **options)
+        put("eb_status", "i4", ("num_el_blk",), 1)
+        put("eb_prop1", "i4", ("num_el_blk",), [10, 20]).setncattr("name", "ID")
+        texts(file, "eb_names", "num_el_blk", ["copper", "air gap"])
+        for number, block in ((1, left), (2, right)):
+            put(f"connect{number}", "i4", (f"num_el_in_blk{number}", f"num_nod_per_el{number}"),
+                block + 1, **options).elem_type = "TRI3"
+        put("ss_prop1", "i4", ("num_side_sets",), [7]).setncattr("name", "ID")
+        texts(file, "ss_names", "num_side_sets", ["floor"])
+        put("elem_ss1", "i4", ("num_side_ss1",), 2 * numpy.arange(COLUMNS // 2) + 1)
+        put("side_ss1", "i4", ("num_side_ss1",), 1)
+        put("ns_prop1", "i4", ("num_node_sets",), [3]).setncattr("name", "ID")
+        texts(file, "ns_names", "num_node_sets", ["corners"])
+        put("node_ns1", "i4", ("num_nod_ns1",), [1, COLUMNS + 1])
+        texts(file, "name_nod_var", "num_nod_var", ["temperature"])
+        put("time_whole", "f8", ("time_step",), [0, 1.5])
+        put("vals_nod_var1", "f8", ("time_step", "num_nodes"),
+            numpy.stack([points[:, 0], points[:, 1]]))
+    return points
+
+
+def content(path):
+    """Everything that netCDF4 sees: variables with their values, storage and attributes."""
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_maskandscale(False)
+        found = {"": {name: str(file.getncattr(name)) for name in file.ncattrs()}}
+        for name, variable in file.variables.items():
+            found[name] = (variable.dtype, variable.dimensions, variable[:].tolist(),
+                           {key: str(variable.getncattr(key)) for key in variable.ncattrs()},
+                           str(variable.filters()), str(variable.chunking()), variable.endian())
+        return file.data_model, {name: len(size) for name, size in file.dimensions.items()}, found
+
+
+class NetcdfTest(tool.ToolTest):
+
+    def assert_only_changes(self, before, after, names):
+        old, new = content(self.path(before)), content(self.path(after))
+        self.assertEqual(old[:2], new[:2])
+        self.assertEqual(old[2].keys(), new[2].keys())
+        changed = {name for name in old[2] if old[2][name] != new[2][name]}
+        self.assertEqual(changed, names)
+        for name in changed:
+            for part in (0, 1, 3, 4, 5, 6):
+                self.assertEqual(old[2][name][part], new[2][name][part])
+
+
+class Exodus(NetcdfTest):
+
+    def test_every_form_comes_back_with_other_coordinates_alone(self):
+        for form in FORMS:
+            for compress in (False, True) if form.startswith("NETCDF4") else (False,):
+                with self.subTest(form, compress=compress):
+                    write_exodus(self.path("in.exo"), form, compress)
+                    report = self.report("smooth", "in.exo", "out.exo")
+                    self.assertGreater(report["smoothing"]["moved_vertices"], 50)
+                    self.assert_only_changes("in.exo", "out.exo", {"coordx", "coordy"})
+                    self.write("all.txt", "\n".join(map(str, range(1, (COLUMNS + 1) * (ROWS + 1) + 1))))
+                    self.run_tool("smooth", "in.exo", "same.exo", "--fixed-ids", "all.txt")
+                    self.assertEqual(self.read("same.exo"), self.read("in.exo"))
+
+    def test_the_form_makes_no_difference(self):
+        results = []
+        for form in FORMS:
+            write_exodus(self.path("in.exo"), form)
+            results.append(self.report("smooth", "in.exo", "out.exo")["coordinates_hash"])
+        self.assertEqual(len(set(results)), 1)
+
+    def test_sets_are_held_by_their_names(self):
+        points = write_exodus(self.path("in.exo"), "NETCDF4")
+        for name in ("floor", "corners", "copper"):
+            held = self.report("smooth", "in.exo", "out.exo", "--fixed-set", name)
+            self.assertGreater(held["smoothing"]["moved_vertices"], 0)
+        with netCDF4.Dataset(self.path("out.exo")) as file:
+            inside = points[:, 0] <= COLUMNS // 2
+            numpy.testing.assert_array_equal(file["coordx"][:][inside], points[inside, 0])
+
+    def test_meshio_s_own_files_come_back(self):
+        points, left, right = plate()
+        mesh = meshio.Mesh(numpy.column_stack([points, numpy.zeros(len(points))]),
+                           [("triangle", left), ("triangle", right)], point_data={"heat": points[:, 0]},
+                           point_sets={"corners": numpy.array([0, COLUMNS])})
+        meshio.write(self.path("in.e"), mesh)
+        self.run_tool("smooth", "in.e", "out.e")
+        self.assert_only_changes("in.e", "out.e", {"coord"})
+        before, after = meshio.read(self.path("in.e")), meshio.read(self.path("out.e"))
+        self.assertTrue((before.points != after.points).any())
+        for old, new in zip(before.cells, after.cells):
+            numpy.testing.assert_array_equal(old.data, new.data)
+
+    def convert(self):
+        """From MSH, with regions, lines around and a named point set by way of Abaqus' names."""
+        points, left, right = plate()
+        floor = [(i, i + 1) for i in range(COLUMNS)]
+        groups = [numpy.full(len(left) + len(right), 1), numpy.full(len(floor), 3)]
+        groups[0][len(left):] = 2
+        mesh = meshio.Mesh(numpy.column_stack([points, numpy.zeros(len(points))]),
+                           [("triangle", numpy.concatenate([left, right])), ("line", numpy.array(floor))],
+                           cell_data={"gmsh:physical": groups, "gmsh:geometrical": groups},
+                           point_data={"heat": points[:, 0]},
+                           field_data={"copper": numpy.array([1, 2]), "air": numpy.array([2, 2]),
+                                       "floor": numpy.array([3, 1])})
+        meshio.write(self.path("in.msh"), mesh, file_format="gmsh22", binary=False)
+        self.run_tool("smooth", "in.msh", "out.exo")
+        return left, right, floor
+
+    def test_netcdf4_reads_what_is_written_from_another_format(self):
+        left, right, floor = self.convert()
+        with netCDF4.Dataset(self.path("out.exo")) as file:
+            names = netCDF4.chartostring(file["eb_names"][:])
+            self.assertEqual([str(name).rstrip("\0") for name in names], ["copper", "air"])
+            numpy.testing.assert_array_equal(file["connect1"][:] - 1, left)
+            numpy.testing.assert_array_equal(file["connect2"][:] - 1, right)
+            self.assertEqual(file["eb_prop1"][:].tolist(), [1, 2])
+            self.assertEqual(file["ss_prop1"][:].tolist(), [3])
+            blocks = numpy.concatenate([left, right])
+            sides = [(blocks[e - 1][s - 1], blocks[e - 1][s % 3])
+                     for e, s in zip(file["elem_ss1"][:], file["side_ss1"][:])]
+            self.assertEqual(sides, floor)
+
+    def test_vtk_reads_what_is_written_from_another_format(self):
+        left, right, floor = self.convert()
+        reader = vtkExodusIIReader()
+        reader.SetFileName(self.path("out.exo"))
+        reader.UpdateInformation()
+        for kind, names in ((reader.ELEM_BLOCK, ["copper", "air"]), (reader.SIDE_SET, ["floor"])):
+            self.assertEqual([reader.GetObjectName(kind, i).split(" ")[0]
+                              for i in range(reader.GetNumberOfObjects(kind))], names)
+            for i in range(reader.GetNumberOfObjects(kind)):
+                reader.SetObjectStatus(kind, i, 1)
+        reader.SetAllArrayStatus(reader.NODAL, 1)
+        reader.Update()
+        output = reader.GetOutput()
+        blocks = output.GetBlock(0)
+        self.assertEqual([blocks.GetBlock(i).GetNumberOfCells() for i in range(2)], [len(left), len(right)])
+        sides = output.GetBlock(4)
+        self.assertEqual(sides.GetBlock(0).GetNumberOfCells(), len(floor))
+        self.assertIsNotNone(blocks.GetBlock(0).GetPointData().GetArray("heat"))
+
+    def test_meshio_reads_what_is_written_from_another_format(self):
+        left, right, _ = self.convert()
+        mesh = meshio.read(self.path("out.exo"))
+        self.assertEqual([block.type for block in mesh.cells], ["triangle", "triangle"])
+        numpy.testing.assert_array_equal(mesh.cells[1].data, right)
+        numpy.testing.assert_array_equal(mesh.point_data["heat"], plate()[0][:, 0])
+
+
+class Ugrid(NetcdfTest):
+
+    def write_coast(self, form, degrees):
+        points, left, right = plate()
+        with netCDF4.Dataset(self.path("in.nc"), "w", format=form) as file:
+            for name, length in (("node", len(points)), ("face", len(left) + len(right)), ("three", 3)):
+                file.createDimension(name, length)
+            mesh = file.createVariable("mesh2d", "i4", ())
+            mesh.setncatts({"cf_role": "mesh_topology", "topology_dimension": numpy.int32(2),
+                            "node_coordinates": "node_x node_y", "face_node_connectivity": "faces"})
+            for axis, name in enumerate(("node_x", "node_y")):
+                variable = file.createVariable(name, "f8", ("node",))
+                variable[:] = points[:, axis]
+                variable.units = ("degrees_east", "degrees_north")[axis] if degrees else "m"
+            faces = file.createVariable("faces", "i4", ("face", "three"), fill_value=-999)
+            faces.start_index = numpy.int32(1)
+            faces[:] = numpy.concatenate([left, right]) + 1
+            depth = file.createVariable("depth", "f8", ("node",))
+            depth[:] = 10 + points[:, 0]
+        return points
+
+    def test_nodes_and_depths_alone_change(self):
+        for form in FORMS:
+            with self.subTest(form):
+                self.write_coast(form, False)
+                self.run_tool("smooth", "in.nc", "out.nc")
+                self.assert_only_changes("in.nc", "out.nc", {"node_x", "node_y", "depth"})
+                with netCDF4.Dataset(self.path("out.nc")) as file:
+                    numpy.testing.assert_allclose(file["depth"][:], 10 + file["node_x"][:], rtol=0, atol=1e-12)
+                self.run_tool("smooth", "in.nc", "out.nc", "--fields", "keep")
+                self.assert_only_changes("in.nc", "out.nc", {"node_x", "node_y"})
+
+    def test_degrees_are_told(self):
+        self.write_coast("NETCDF4", True)
+        self.assertIn("--geographic", self.run_tool("smooth", "in.nc", "out.nc").err)
+        self.run_tool("smooth", "in.nc", "out.nc", "--geographic")
+        self.assert_only_changes("in.nc", "out.nc", {"node_x", "node_y", "depth"})
+
+    def test_netcdf4_reads_what_is_written_from_another_format(self):
+        points, left, right = plate()
+        mesh = meshio.Mesh(numpy.column_stack([points, numpy.zeros(len(points))]),
+                           [("triangle", numpy.concatenate([left, right]))], point_data={"depth": points[:, 0]})
+        meshio.write(self.path("in.vtu"), mesh)
+        self.run_tool("smooth", "in.vtu", "out.nc")
+        with netCDF4.Dataset(self.path("out.nc")) as file:
+            numpy.testing.assert_array_equal(file["mesh2d_face_nodes"][:], numpy.concatenate([left, right]))
+            numpy.testing.assert_array_equal(file["depth"][:], points[:, 0])
+
+
+if __name__ == "__main__":
+    tool.main()
