@@ -227,14 +227,13 @@ class Planner {
     }
   }
 
-  /// Those of lines of a group are its side set already.
-  bool is_side_set(std::size_t set) const {
-    return std::ranges::any_of(groups_.groups, [set](const CellGroup& group) {
-      return group.dimension == 1 && group.whole_set == static_cast<std::int32_t>(set);
-    });
-  }
-
   void add_cell_sets() {
+    std::vector<bool> is_side_set(document_.cell_sets.size());  // of a group
+    for (const CellGroup& group : groups_.groups) {
+      if (group.dimension == 1 && group.whole_set >= 0) {
+        is_side_set[static_cast<std::size_t>(group.whole_set)] = true;
+      }
+    }
     FreeIds element_ids;
     for (std::size_t i = 0; i < document_.cell_sets.size(); ++i) {
       const NamedSet& set = document_.cell_sets[i];
@@ -247,7 +246,7 @@ class Planner {
           add_side(sides, cell);
         }
       }
-      if (!sides.members.empty() && !is_side_set(i)) {
+      if (!sides.members.empty() && !is_side_set[i]) {
         sides.id = side_ids_.claim(0);
         plan_.side_sets.push_back(std::move(sides));
       }

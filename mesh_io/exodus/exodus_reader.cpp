@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/exodus/exodus_blocks.h"
 #include "trismooth/mesh_io/netcdf/netcdf_file.h"
+#include "trismooth/mesh_io/text/number_text.h"
 
 namespace trismooth {
 
@@ -29,7 +32,7 @@ constexpr std::array<std::string_view, 3> axis_names{"coordx", "coordy", "coordz
 class ExodusReader {
  public:
   ExodusReader(const std::filesystem::path& path, std::string_view bytes, const FileWorkers& workers)
-      : file_(path, bytes, workers), workers_(workers) {}
+      : file_(path, bytes, workers), bytes_(bytes.size()), workers_(workers) {}
 
   MeshDocument read(FileBytes bytes) {
     read_points();
@@ -132,9 +135,7 @@ class ExodusReader {
     for (std::size_t i = 0; i < at_nodes.size(); ++i) {
       read_nodal(at_nodes[i], i);
     }
-    for (std::size_t i = 0; i < at_elements.size(); ++i) {
-      read_elemental(at_elements[i], i, blocks);
-    }
+    read_elemental(at_elements, blocks);
     add_note_of_steps();
   }
 
@@ -161,23 +162,53 @@ class ExodusReader {
     }
   }
 
-  /// Elements of blocks that do not have the variable have no number.
-  void read_elemental(const std::string& name, std::size_t number, const std::vector<ExodusBlock>& blocks) {
-    std::vector<double> values(document_.cells.size(), std::numeric_limits<double>::quiet_NaN());
-    bool has_any = false;
+  /// Elements of blocks that do not have a variable have no number there. Where that takes many times the memory of the
+  /// file, as with many variables of a few elements each, the variables stay in the file.
+  void read_elemental(const std::vector<std::string>& names, const std::vector<ExodusBlock>& blocks) {
+    std::map<std::size_t, const ExodusBlock*> of_number;
     for (const ExodusBlock& block : blocks) {
-      const NetcdfVariable* const variable =
-          file_.find("vals_elem_var" + std::to_string(number + 1) + "eb" + std::to_string(block.number));
-      if (variable != nullptr && block.has_cells && is_real(variable->type) &&
-          variable->shape == std::vector{steps_, block.elements}) {
-        const std::size_t last[] = {steps_ - 1};
-        std::ranges::copy(file_.values<double>(*variable, last),
-                          values.begin() + static_cast<std::ptrdiff_t>(block.first_cell));
-        has_any = true;
+      of_number.emplace(block.number, &block);
+    }
+    std::map<std::size_t, std::vector<std::pair<const ExodusBlock*, const NetcdfVariable*>>> parts;
+    for (const NetcdfVariable& variable : file_.content().variables) {
+      constexpr std::string_view beginning = "vals_elem_var";
+      const std::string_view rest =
+          std::string_view(variable.name).substr(std::min(beginning.size(), variable.name.size()));
+      const std::size_t middle = rest.find("eb");
+      if (!variable.name.starts_with(beginning) || middle == std::string_view::npos) {
+        continue;
+      }
+      const auto number = parse_integer(rest.substr(0, middle));
+      const auto block_number = parse_integer(rest.substr(middle + 2));
+      const auto block = of_number.find(static_cast<std::size_t>(block_number.value_or(0)));
+      if (number && *number > 0 && static_cast<std::size_t>(*number) <= names.size() && block != of_number.end() &&
+          block->second->has_cells && is_real(variable.type) &&
+          variable.shape == std::vector{steps_, block->second->elements}) {
+        parts[static_cast<std::size_t>(*number)].emplace_back(block->second, &variable);
       }
     }
-    if (has_any) {
-      document_.cell_arrays.push_back(make_data_array(name, 1, std::move(values)));
+    constexpr std::size_t most_expansion = 16;
+    std::size_t left = most_expansion * bytes_;
+    const std::size_t each = document_.cells.size() * sizeof(double);
+    std::vector<std::string> unread;
+    for (const auto& [number, of_blocks] : parts) {
+      if (each > left) {
+        unread.push_back(names[number - 1]);
+        continue;
+      }
+      left -= each;
+      std::vector<double> values(document_.cells.size(), std::numeric_limits<double>::quiet_NaN());
+      for (const auto& [block, variable] : of_blocks) {
+        const std::array last{steps_ - 1};
+        std::ranges::copy(file_.values<double>(*variable, last),
+                          values.begin() + static_cast<std::ptrdiff_t>(block->first_cell));
+      }
+      document_.cell_arrays.push_back(make_data_array(names[number - 1], 1, std::move(values)));
+    }
+    if (!unread.empty()) {
+      constexpr std::size_t most = 5;
+      document_.notes.push_back("Variables of few elements, of very many, are kept in Exodus output only: " +
+                                first_of_list(unread, most) + ".");
     }
   }
 
@@ -224,6 +255,7 @@ class ExodusReader {
   }
 
   NetcdfFile file_;
+  std::size_t bytes_;  ///< of the file
   const FileWorkers& workers_;
   MeshDocument document_;
   std::size_t axes_ = 0;

@@ -90,7 +90,7 @@ struct NetcdfSites {
 
 /// The original of a document that was read from `file`: `bytes`, with the values at these sites in place of those that
 /// differ. Of a classic file no other byte changes; a netCDF-4 file where nothing differs is written byte by byte, else
-/// the library overwrites the values in a copy. Throws ReadError where sites overlap.
+/// the library overwrites the values in a copy. No two sites are the same value.
 std::shared_ptr<const OriginalFile> make_netcdf_original(const NetcdfFile& file, FileBytes bytes,
                                                          std::vector<NetcdfSites> sites);
 

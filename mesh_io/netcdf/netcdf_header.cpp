@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/saturating_product.h"
@@ -41,6 +43,7 @@ class HeaderReader {
     for_list(variable_tag, [this] { read_variable(); });
     set_records(records, records == streamed);
     require_values();
+    require_apart();
     return std::move(content_);
   }
 
@@ -227,6 +230,42 @@ class HeaderReader {
       }
       left -= all;
     }
+  }
+
+  /// Whoever overwrites the values of one variable is to change no other one, and not the header.
+  void require_apart() const {
+    using Piece = std::pair<std::uint64_t, std::uint64_t>;  // from here to before there
+    std::vector<Piece> pieces{{0, offset_}};
+    std::vector<Piece> of_record;
+    std::uint64_t records = 0;
+    std::uint64_t step = 0;
+    for (const NetcdfVariable& variable : content_.variables) {
+      const std::uint64_t bytes = bytes_of(variable);
+      if (bytes == 0 || (variable.has_records && variable.shape.front() == 0)) {
+        continue;
+      }
+      (variable.has_records ? of_record : pieces).emplace_back(variable.begin, variable.begin + bytes);
+      if (variable.has_records) {
+        records = variable.shape.front();
+        step = variable.record_step;
+      }
+    }
+    bool are_apart = sort_apart(of_record);
+    if (!of_record.empty()) {
+      const auto [begin, end] = std::pair(of_record.front().first, of_record.back().second);
+      are_apart = are_apart && end - begin <= step;
+      pieces.emplace_back(begin, end + (records - 1) * step);
+    }
+    if (!are_apart || !sort_apart(pieces)) {
+      throw ReadError(path_, "is damaged: variables, or one and the header, have the same bytes of the file");
+    }
+  }
+
+  /// Sorts them; whether none reaches into the next.
+  static bool sort_apart(std::vector<std::pair<std::uint64_t, std::uint64_t>>& pieces) {
+    std::ranges::sort(pieces);
+    return std::ranges::adjacent_find(pieces, [](const auto& a, const auto& b) { return b.first < a.second; }) ==
+           pieces.end();
   }
 
   const std::filesystem::path& path_;

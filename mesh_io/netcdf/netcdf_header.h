@@ -14,8 +14,8 @@ bool is_classic_netcdf(std::string_view bytes);
 /// Whether they begin as an HDF5 file, as netCDF-4 is one.
 bool is_hdf5(std::string_view bytes);
 
-/// The header of a classic file, `bytes` being the whole of it. Of each variable all values are within the bytes, and
-/// together they are no more than these. Throws ReadError. Complexity: linear in the header.
+/// The header of a classic file, `bytes` being the whole of it. Of each variable all values are within the bytes,
+/// behind the header, and no two variables share any. Throws ReadError. Complexity: n log n in the header.
 NetcdfContent read_netcdf_header(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace trismooth

@@ -5,9 +5,7 @@
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/document/patched_original.h"
-#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/netcdf/netcdf_file.h"
-#include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 
@@ -111,12 +109,6 @@ std::shared_ptr<const OriginalFile> make_netcdf_original(const NetcdfFile& file,
     none.even = EvenSites{};
   }
   std::ranges::sort(lists, {}, [](const NumberSites& list) { return list.even->begin; });
-  for (std::size_t i = 1; i < lists.size(); ++i) {
-    const EvenSites& before = *lists[i - 1].even;
-    if (lists[i].even->begin < before.begin + before.count * before.step) {
-      throw ReadError(file.path(), "is damaged: variables of its points have the same bytes");
-    }
-  }
   return make_patched_original(std::move(bytes), std::move(lists));
 }
 

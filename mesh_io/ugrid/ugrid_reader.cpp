@@ -37,7 +37,7 @@ struct Numbering {
 class UgridReader {
  public:
   UgridReader(const std::filesystem::path& path, std::string_view bytes, const FileWorkers& workers)
-      : file_(path, bytes, workers), workers_(workers) {}
+      : file_(path, bytes, workers), left_for_lines_(16 * bytes.size()), workers_(workers) {}
 
   MeshDocument read(FileBytes bytes) {
     find_topology();
@@ -268,9 +268,16 @@ class UgridReader {
     }
   }
 
-  /// Lines have no such value: 0, or no number.
+  /// Lines have no such value: 0, or no number. Where these take many times the memory of the file, as with very many
+  /// variables of a few faces, the variables stay in the file.
   void read_face_values(const NetcdfVariable& variable) {
     const std::size_t cells = document_.cells.size();
+    const std::size_t added = (cells - variable.shape.front()) * sizeof(double);
+    if (added > left_for_lines_) {
+      of_times_.push_back(variable.name);
+      return;
+    }
+    left_for_lines_ -= added;
     if (is_real(variable.type)) {
       std::vector<double> values = file_.values<double>(variable);
       values.resize(cells, std::numeric_limits<double>::quiet_NaN());
@@ -302,12 +309,13 @@ class UgridReader {
     }
     if (!of_times_.empty()) {
       constexpr std::size_t most = 8;
-      document_.notes.push_back("Values at nodes of several times or layers are kept in UGRID output only: " +
-                                first_of_list(of_times_, most) + ".");
+      document_.notes.push_back(
+          "Values of several times or layers are kept in UGRID output only: " + first_of_list(of_times_, most) + ".");
     }
   }
 
   NetcdfFile file_;
+  std::size_t left_for_lines_;  ///< bytes that values of these may take
   const FileWorkers& workers_;
   MeshDocument document_;
   const NetcdfVariable* topology_ = nullptr;

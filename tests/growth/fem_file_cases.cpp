@@ -284,6 +284,8 @@ std::vector<GrowthCase> fem_file_cases() {
                                                                                         {"mfem", "mesh"},
                                                                                         {"triangle", "node"},
                                                                                         {"unv", "unv"},
+                                                                                        {"exodus", "exo"},
+                                                                                        {"ugrid", "nc"},
                                                                                         {"off", "off.gz"}}) {
     cases.push_back(chain_in(name, extension));
   }
@@ -317,6 +319,7 @@ std::vector<GrowthCase> fem_file_cases() {
   cases.push_back(file_case("nodes of degree 2", 100, "mesh", "mesh", &mfem_nodes));
   cases.push_back(file_case("groups", 100, "unv", "unv", &unv_groups));
   cases.push_back(file_case("groups", 100, "unv", "msh", &unv_groups));
+  cases.push_back(file_case("groups", 100, "unv", "exo", &unv_groups));
   cases.push_back(triangle_regions());
   return cases;
 }

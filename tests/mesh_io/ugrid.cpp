@@ -13,6 +13,7 @@
 namespace trismooth::ugrid_test {
 
 using test_support::NetcdfBuilder;
+using Attributes = std::vector<NetcdfBuilder::Attribute>;
 
 const TextFormat ugrid(".nc");
 
@@ -25,12 +26,12 @@ struct Coast {
   int nodes = 0;
   int faces = 0;
 
-  explicit Coast(std::vector<NetcdfBuilder::Attribute> more = {}, const std::string& unit = "m",
+  explicit Coast(Attributes more = {}, const std::string& unit = "m",
                  std::vector<double> table = {0, 1, 2, 3, 1, 4, 2, -1}) {
-    std::vector<NetcdfBuilder::Attribute> topology{{"cf_role", "mesh_topology"},
-                                                   {"topology_dimension", "", {2}},
-                                                   {"node_coordinates", "lat lon"},
-                                                   {"face_node_connectivity", "face_nodes"}};
+    Attributes topology{{"cf_role", "mesh_topology"},
+                        {"topology_dimension", "", {2}},
+                        {"node_coordinates", "lat lon"},
+                        {"face_node_connectivity", "face_nodes"}};
     topology.insert(topology.end(), more.begin(), more.end());
     nodes = file.dimension("nodes", 5);
     faces = file.dimension("faces", 2);
@@ -55,7 +56,7 @@ TEST_CASE("UGRID: longitudes are x wherever they stand, and the file says that t
 }
 
 TEST_CASE("UGRID: real numbers at nodes are of places, and written back with what moved; others stay, with a note") {
-  Coast coast({{"face_coordinates", "face_x face_y"}});
+  Coast coast(Attributes{{"face_coordinates", "face_x face_y"}});
   coast.file.variable("depth", float64, {coast.nodes}, {1, 2, 3, 4, 5});
   coast.file.variable("zone", int32, {coast.faces}, {7, 8});
   coast.file.variable("level", float64, {coast.file.dimension("layers", 2), coast.nodes},
@@ -68,7 +69,7 @@ TEST_CASE("UGRID: real numbers at nodes are of places, and written back with wha
   CHECK(document.notes ==
         std::vector<std::string>{"Places of faces and edges stay in UGRID output as they were read, also where nodes "
                                  "move: face_x, face_y.",
-                                 "Values at nodes of several times or layers are kept in UGRID output only: level."});
+                                 "Values of several times or layers are kept in UGRID output only: level."});
   CHECK(ugrid.written(document) == bytes);
   document.points[3] = 4.25;
   document.point_arrays[0] = make_data_array("depth", 1, std::vector<double>{1, 2.5, 3, 4, 5});
@@ -87,7 +88,7 @@ TEST_CASE("UGRID: what is wrong is named") {
         "mesh.nc: 'face_nodes': row 0 (from 0) has a node behind the end of its face");
   CHECK(failure(Coast({}, "m", {0, 1, -1, -1, 1, 4, 2, -1})) ==
         "mesh.nc: 'face_nodes': row 0 (from 0) has fewer than 3 nodes");
-  CHECK(failure(Coast({{"boundary_node_connectivity", "shore"}})) ==
+  CHECK(failure(Coast(Attributes{{"boundary_node_connectivity", "shore"}})) ==
         "mesh.nc: boundary_node_connectivity 'shore' is no variable of the file");
   NetcdfBuilder line(2);
   line.variable("mesh", int32, {}, {0}, {{"cf_role", "mesh_topology"}, {"topology_dimension", "", {1}}});
