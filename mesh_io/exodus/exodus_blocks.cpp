@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <span>
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/letter_case.h"
@@ -79,8 +80,15 @@ class BlockReader {
     CellList& cells = document_.cells;
     append_uniform_cells(cells, shape.nodes == 0 ? cell_type::poly_vertex : shape.type, nodes, block.elements,
                          workers_);
+    std::int32_t* const first = cells.connectivity.data() + (cells.connectivity.size() - block.elements * nodes);
+    if (connect.type == NetcdfType::int32 && shape.places == nullptr) {
+      // Nearly all files: read in their place.
+      const std::span<std::int32_t> references(first, block.elements * nodes);
+      file_.read(connect, {}, references);
+      fill_vertices(block, references, nodes, [first](std::size_t i) -> std::int32_t& { return first[i]; });
+      return;
+    }
     with_references(connect, [&](const auto& references) {
-      std::int32_t* const first = cells.connectivity.data() + (cells.connectivity.size() - references.size());
       if (shape.places == nullptr) {
         fill_vertices(block, references, nodes, [first](std::size_t i) -> std::int32_t& { return first[i]; });
       } else {
@@ -106,16 +114,17 @@ class BlockReader {
     const auto points = document_.point_count();
     const std::size_t wrong = first_wrong(workers_, references.size(), sizeof(references.front()), [&](std::size_t i) {
       // Unsigned: 0 and negative numbers are too large.
-      const std::uint64_t vertex = static_cast<std::uint64_t>(static_cast<std::int64_t>(references[i])) - 1;
-      if (vertex < points) {
-        target(i) = static_cast<std::int32_t>(vertex);
-      }
-      return vertex >= points;
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(references[i])) - 1 >= points;
     });
     if (wrong < references.size()) {
       fail(block, "names node " + std::to_string(references[wrong]) + ", of " + std::to_string(points) +
                       (nodes > 0 ? ", in its element " + std::to_string(wrong / nodes + 1) : ""));
     }
+    for_file_blocks(workers_, references.size(), sizeof(references.front()), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        target(i) = static_cast<std::int32_t>(references[i] - 1);
+      }
+    });
   }
 
   void read_polygons(const NetcdfVariable& connect, ExodusBlock& block) {

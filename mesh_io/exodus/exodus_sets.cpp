@@ -39,9 +39,10 @@ class SetReader {
     }
     read_side_sets();
     add_lines();
-    for (ListedGroup& group : groups_) {
-      std::ranges::sort(group.cells);
-      group.cells.erase(std::unique(group.cells.begin(), group.cells.end()), group.cells.end());
+    for (std::size_t i = blocks_.size(); i < groups_.size(); ++i) {
+      std::vector<std::int32_t>& cells = groups_[i].cells;
+      std::ranges::sort(cells);
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     }
     add_listed_groups("exodus:block", std::move(groups_), document_);
     document_.cell_sets.insert(document_.cell_sets.end(), faces_.begin(), faces_.end());

@@ -124,7 +124,7 @@ void NetcdfFile::read_classic(const NetcdfVariable& variable, std::uint64_t offs
 }
 
 template <class T>
-std::vector<T> NetcdfFile::values(const NetcdfVariable& variable, std::span<const std::size_t> leading) const {
+void NetcdfFile::read(const NetcdfVariable& variable, std::span<const std::size_t> leading, std::span<T> values) const {
   const bool is_held = std::is_same_v<T, char>       ? variable.type == NetcdfType::text
                        : std::is_floating_point_v<T> ? is_whole(variable.type) || is_real(variable.type)
                                                      : is_whole(variable.type);
@@ -133,23 +133,28 @@ std::vector<T> NetcdfFile::values(const NetcdfVariable& variable, std::span<cons
                    : std::is_floating_point_v<T> ? "is not of numbers"
                                                  : "is not of whole numbers");
   }
-  const Part part = part_of(variable, leading);
-  std::vector<T> read;
-  shared_resize(read, part.size, workers_.workers);
   if (library_ != nullptr) {
-    library_->read(static_cast<std::size_t>(&variable - content_.variables.data()), part.begin, part.counts,
-                   std::span<T>(read));
+    const Part part = part_of(variable, leading);
+    library_->read(static_cast<std::size_t>(&variable - content_.variables.data()), part.begin, part.counts, values);
   } else if (variable.has_records && leading.empty()) {
     const std::size_t records = variable.shape.front();
-    const std::size_t each = records == 0 ? 0 : read.size() / records;
+    const std::size_t each = records == 0 ? 0 : values.size() / records;
     for (std::size_t record = 0; record < records; ++record) {
-      read_classic(variable, variable.begin + record * variable.record_step,
-                   std::span<T>(read).subspan(record * each, each));
+      read_classic(variable, variable.begin + record * variable.record_step, values.subspan(record * each, each));
     }
-  } else if (!read.empty()) {
-    read_classic(variable, offset_of(variable, leading), std::span<T>(read));
+  } else if (!values.empty()) {
+    read_classic(variable, offset_of(variable, leading), values);
   }
-  return read;
+}
+
+template void NetcdfFile::read(const NetcdfVariable&, std::span<const std::size_t>, std::span<std::int32_t>) const;
+
+template <class T>
+std::vector<T> NetcdfFile::values(const NetcdfVariable& variable, std::span<const std::size_t> leading) const {
+  std::vector<T> values;
+  shared_resize(values, part_of(variable, leading).size, workers_.workers);
+  read(variable, leading, std::span<T>(values));
+  return values;
 }
 
 template std::vector<std::int32_t> NetcdfFile::values(const NetcdfVariable&, std::span<const std::size_t>) const;

@@ -44,6 +44,10 @@ class NetcdfFile {
   template <class T>
   std::vector<T> values(const NetcdfVariable& variable, std::span<const std::size_t> leading = {}) const;
 
+  /// Reads values() into `values`, which has part_of().size of them.
+  template <class T>
+  void read(const NetcdfVariable& variable, std::span<const std::size_t> leading, std::span<T> values) const;
+
   /// The numbers of values() in the file's own type, float or double, as an array of that name.
   DataArray real_array(std::string name, const NetcdfVariable& variable, std::span<const std::size_t> leading) const;
 
@@ -75,6 +79,8 @@ class NetcdfFile {
   std::map<std::string_view, const NetcdfVariable*> variables_;  ///< by their names
 };
 
+extern template void NetcdfFile::read(const NetcdfVariable&, std::span<const std::size_t>,
+                                      std::span<std::int32_t>) const;
 extern template std::vector<std::int32_t> NetcdfFile::values(const NetcdfVariable&, std::span<const std::size_t>) const;
 extern template std::vector<std::int64_t> NetcdfFile::values(const NetcdfVariable&, std::span<const std::size_t>) const;
 extern template std::vector<float> NetcdfFile::values(const NetcdfVariable&, std::span<const std::size_t>) const;
