@@ -2,8 +2,10 @@
 #include "trismooth/mesh_io/hdf5/hdf5_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <new>
+#include <tuple>
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/saturating_product.h"
@@ -50,28 +52,27 @@ Hdf5Handle open_bytes(std::string_view bytes) {
   return {H5Fopen(("trismooth bytes " + std::to_string(opened++)).c_str(), H5F_ACC_RDONLY, access.get()), &H5Fclose};
 }
 
+/// One of the ordinary types, in either order of bytes: of others, which damaged files describe, HDF5's conversions
+/// make anything.
 std::optional<ScalarType> number_type(hid_t type) {
-  const std::size_t size = H5Tget_size(type);
-  const bool is_whole = H5Tget_precision(type) == 8 * size;
-  if (H5Tget_class(type) == H5T_FLOAT && is_whole && (size == 4 || size == 8)) {
-    return size == 4 ? ScalarType::float32 : ScalarType::float64;
+  const std::array types{
+      std::tuple(ScalarType::int8, H5T_STD_I8LE, H5T_STD_I8BE),
+      std::tuple(ScalarType::uint8, H5T_STD_U8LE, H5T_STD_U8BE),
+      std::tuple(ScalarType::int16, H5T_STD_I16LE, H5T_STD_I16BE),
+      std::tuple(ScalarType::uint16, H5T_STD_U16LE, H5T_STD_U16BE),
+      std::tuple(ScalarType::int32, H5T_STD_I32LE, H5T_STD_I32BE),
+      std::tuple(ScalarType::uint32, H5T_STD_U32LE, H5T_STD_U32BE),
+      std::tuple(ScalarType::int64, H5T_STD_I64LE, H5T_STD_I64BE),
+      std::tuple(ScalarType::uint64, H5T_STD_U64LE, H5T_STD_U64BE),
+      std::tuple(ScalarType::float32, H5T_IEEE_F32LE, H5T_IEEE_F32BE),
+      std::tuple(ScalarType::float64, H5T_IEEE_F64LE, H5T_IEEE_F64BE),
+  };
+  for (const auto& [number, little, big] : types) {
+    if (H5Tequal(type, little) > 0 || H5Tequal(type, big) > 0) {
+      return number;
+    }
   }
-  if (H5Tget_class(type) != H5T_INTEGER || !is_whole) {
-    return std::nullopt;
-  }
-  const bool is_signed = H5Tget_sign(type) == H5T_SGN_2;
-  switch (size) {
-    case 1:
-      return is_signed ? ScalarType::int8 : ScalarType::uint8;
-    case 2:
-      return is_signed ? ScalarType::int16 : ScalarType::uint16;
-    case 4:
-      return is_signed ? ScalarType::int32 : ScalarType::uint32;
-    case 8:
-      return is_signed ? ScalarType::int64 : ScalarType::uint64;
-    default:
-      return std::nullopt;
-  }
+  return std::nullopt;
 }
 
 bool is_real(ScalarType type) {

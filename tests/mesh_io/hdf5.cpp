@@ -244,6 +244,20 @@ TEST_CASE("sizes that no bytes stand behind are refused before memory is asked f
             .find("declares 4 values") != std::string::npos);
 }
 
+TEST_CASE("numbers of a form of their own, as damaged files describe them, are no numbers that are read") {
+  const ScratchFolder folder;
+  const std::string bytes = foreign_file(folder, [](hid_t file) {
+    const Hdf5Handle type(H5Tcopy(H5T_IEEE_F64LE), &H5Tclose);
+    H5Tset_ebias(type.get(), 1000);
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), &H5Sclose);
+    const Hdf5Handle made(H5Dcreate2(file, "x", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                          &H5Dclose);
+    const double value = 1;
+    H5Dwrite(made.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value);
+  });
+  CHECK(refusal_of(bytes, "x") == "a.h5: 'x' holds no numbers of a type that is read");
+}
+
 TEST_CASE("links are listed and not followed; groups in a circle are groups") {
   const ScratchFolder folder;
   const std::string bytes = foreign_file(folder, [](hid_t file) {
