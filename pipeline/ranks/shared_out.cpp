@@ -51,6 +51,12 @@ class NewPiece final : public OriginalFile {
     codec_of(changed.format).write_shared(path, changed, FileWorkers(workers));
   }
 
+  std::vector<std::filesystem::path> other_files(const std::filesystem::path& path) const override {
+    const auto format = format_of(path);
+    const auto others_of = format ? codec_of(*format).other_files_of : nullptr;
+    return others_of == nullptr ? std::vector<std::filesystem::path>() : others_of(path);
+  }
+
   bool keeps_values_of(std::string_view /*point_array*/) const override { return false; }
   bool takes_added_arrays() const override { return true; }
 };
