@@ -63,8 +63,8 @@ std::vector<FileFormat> formats_of(const std::filesystem::path& path);
 /// The format of that short name, or nothing.
 std::optional<FileFormat> format_named(std::string_view name);
 
-/// Whether this build reads and writes the format. vtu and vtp need a build with VTK, med and cgns one with HDF5; all
-/// others always are available.
+/// Whether this build reads and writes the format. All but these always are available: vtu and vtp need a build with
+/// VTK, med and cgns one with HDF5, xdmf one with either.
 bool is_available(FileFormat format);
 
 /// Every format, available or not, in the order of the enumeration.
@@ -79,8 +79,8 @@ std::string titled_format_list();
 /// "off, obj, ...": the short names of the available formats, for messages about options.
 std::string format_names();
 
-/// True for the formats that hold arrays of points and cells by name, and take annotations: vtk, vtu, vtp, msh, and ply
-/// as properties.
+/// True for the formats that hold arrays of points and cells by name, and take annotations: vtk, vtu, vtp, msh, xdmf,
+/// and ply as properties.
 bool has_arrays(FileFormat format);
 
 /// True for the formats that hold names of values and sets, or say themselves what they cannot hold of these.
