@@ -42,6 +42,7 @@ work=$project/build/fuzz
 # Every process with the sanitizers' coverage writes a profile when it ends; of fuzzing it says nothing.
 export LLVM_PROFILE_FILE=/dev/null
 # VTK keeps no frame pointers: longer stacks of allocations are wrong and all differ, which fills the memory.
+export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$project/tests/leaks_of_libraries.txt:print_suppressions=0}
 export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=16${ASAN_OPTIONS:+:$ASAN_OPTIONS}
 
 if $builds; then

@@ -19,6 +19,7 @@ covered_folders=(base quality smoothing mesh_io)
 least_coverage=90
 
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1}
+export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$project/tests/leaks_of_libraries.txt:print_suppressions=0}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
 # Under a sanitizer everything takes several times as long: random tests make so
 # many per cent of their meshes.
