@@ -68,7 +68,7 @@ fuzz() {
   if [[ -d $data/regressions/$target ]]; then
     folders+=("$data/regressions/$target")
   fi
-  local options=(-max_total_time="$seconds" -max_len=16384 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=512
+  local options=(-max_total_time="$seconds" -max_len=32768 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=512
     -artifact_prefix="$work/$target/finds/" -print_final_stats=1)
   if [[ -f $data/dictionaries/$dictionary.dict ]]; then
     options+=(-dict="$data/dictionaries/$dictionary.dict")

@@ -156,7 +156,12 @@ void XdmfItems::describe_heavy(const XmlElement& element, XdmfItem& item) {
   const std::string_view content = content_of(element);
   if (item.place == XdmfItem::Place::binary) {
     item.file = file_of(content, element.line);
-    item.begin = parse_unsigned(xdmf_attribute(element, "Seek")).value_or(0);
+    const std::string seek = xdmf_attribute(element, "Seek");
+    const auto begin = parse_unsigned(seek.empty() ? "0" : seek);
+    if (!begin) {
+      fail(element.line, "Seek=" + quoted(std::string_view(seek)) + " is no place in a file");
+    }
+    item.begin = *begin;
     const std::string order = xdmf_word(xdmf_attribute(element, "Endian"));
     item.is_big_endian = order == "BIG" || (order != "LITTLE" && std::endian::native == std::endian::big);
     const std::string compression = xdmf_word(xdmf_attribute(element, "Compression"));
@@ -219,7 +224,12 @@ XdmfItem XdmfItems::find(const XmlElement& element) {
     rest = trimmed(rest.substr(end), white_space);
   }
   const std::string type = xdmf_word(xdmf_attribute(*at, "NumberType", "DataType"));
-  item.type = type_named(type.empty() ? "FLOAT" : type, parse_unsigned(xdmf_attribute(*at, "Precision")).value_or(4));
+  const std::string precision = xdmf_attribute(*at, "Precision");
+  const auto bytes = parse_unsigned(precision.empty() ? "4" : precision);
+  if (!bytes) {
+    fail(at->line, "Precision=" + quoted(std::string_view(precision)) + " is no number of bytes");
+  }
+  item.type = type_named(type.empty() ? "FLOAT" : type, *bytes);
   const std::string format = xdmf_word(xdmf_attribute(*at, "Format"));
   if (format == "HDF" || format == "HDF5") {
     item.place = XdmfItem::Place::hdf5;

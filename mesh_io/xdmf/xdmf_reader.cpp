@@ -15,6 +15,7 @@
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/annotation_names.h"
+#include "trismooth/mesh_io/document/array_limits.h"
 #include "trismooth/mesh_io/document/member_budget.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -283,11 +284,13 @@ class XdmfReader {
     const XdmfItem item = items_.find(*attribute.child("DataItem"));
     const Block& block = blocks_[part.block];
     const std::size_t rows = center == "GRID" ? 1 : is_of_points ? block.count : part.count;
-    if (!item.type || rows == 0 || item.count() % rows != 0 || item.count() == 0) {
+    const std::uint64_t components = rows > 0 ? item.count() / rows : item.extents.size() > 1 ? item.extents.back() : 1;
+    if (!item.type || item.count() != components * rows || components == 0 ||
+        (rows == 0 && components > most_components_without_rows)) {
       kept_alone_.push_back(name);
       return;
     }
-    DataArray array = items_.read_array(item, name, static_cast<std::size_t>(item.count() / rows));
+    DataArray array = items_.read_array(item, name, static_cast<std::size_t>(components));
     if (center == "GRID") {
       document_.field_arrays.push_back(std::move(array));
     } else if (is_of_points) {

@@ -122,7 +122,12 @@ class CellReader {
 
  private:
   std::optional<std::int64_t> number_in(std::string_view name) const {
-    return parse_integer(xdmf_attribute(topology_, name));
+    const std::string text = xdmf_attribute(topology_, name);
+    const std::optional<std::int64_t> number = parse_integer(text);
+    if (!text.empty() && !number) {
+      fail(std::string(name) + "=" + quoted(std::string_view(text)) + " is no whole number");
+    }
+    return number;
   }
 
   template <class T>

@@ -25,7 +25,7 @@ struct Target {
 };
 
 /// Longer inputs are left alone.
-inline constexpr std::size_t most_input_bytes = 16384;
+inline constexpr std::size_t most_input_bytes = 32768;
 
 /// One for each format, and the one of flat arrays.
 std::span<const Target> all_targets();

@@ -108,6 +108,7 @@ TEST_CASE("a file of every format that holds quadrilaterals is smoothed as its a
     PipelineOptions options = options_of(Method::mean_ratio);
     options.input = input;
     options.output = folder / ("out" + extension);
+    options.region_arrays = {"none"};  // blocks and sections are of one type
     const PipelineResult result = run_pipeline(options);
     CHECK(result.input.quadrilaterals == std::ranges::count_if(elements, [](const auto& e) { return e[3] >= 0; }));
     CHECK(result.smoothing->moved_vertices > 10);
@@ -131,7 +132,13 @@ TEST_CASE("a file of every format that holds quadrilaterals is smoothed as its a
       still.fixed_vertices.push_back(v);
     }
     run_pipeline(still);
-    CHECK(bytes_of(*still.output) == bytes_of(input));
+    // (XDMF names the file beside it.)
+    std::string written_still = bytes_of(*still.output);
+    constexpr std::string_view own_name = "still.";
+    for (std::size_t at = 0; (at = written_still.find(own_name, at)) != std::string::npos;) {
+      written_still.replace(at, own_name.size(), "in.");
+    }
+    CHECK(written_still == bytes_of(input));
   }
   CHECK(formats >= 14);
 }
