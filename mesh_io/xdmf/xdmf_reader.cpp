@@ -284,6 +284,9 @@ class XdmfReader {
     const XdmfItem item = items_.find(*attribute.child("DataItem"));
     const Block& block = blocks_[part.block];
     const std::size_t rows = center == "GRID" ? 1 : is_of_points ? block.count : part.count;
+    if (rows > 0 && item.count() == 0) {
+      items_.fail(attribute.line, "the array " + quoted(std::string_view(name)) + " has no numbers");
+    }
     const std::uint64_t components = rows > 0 ? item.count() / rows : item.extents.size() > 1 ? item.extents.back() : 1;
     if (!item.type || item.count() != components * rows || components == 0 ||
         (rows == 0 && components > most_components_without_rows)) {
