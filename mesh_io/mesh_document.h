@@ -73,6 +73,7 @@ struct MeshDocument {
   std::vector<double> points;                   ///< x, y, z of every point; exact, also where the file holds float32
   ScalarType point_type = ScalarType::float64;  ///< float32 or float64: holds every coordinate as the file stores it
   bool has_float32_axis = false;                ///< some of x, y, z are stored as float32, though point_type is float64
+  bool is_geographic = false;                   ///< the file says that x and y are longitude and latitude, in degrees
   std::shared_ptr<const ArrayDescription> points_description;  ///< of the coordinates as an array; may be null
   CellList cells;
   std::vector<DataArray> point_arrays;  ///< a row for every point
@@ -101,7 +102,6 @@ struct MeshDocument {
   std::vector<std::string> notes;   ///< what the reader has to say about the file, one sentence each: among them
                                     ///< what only a file of the same format keeps
   std::vector<std::string> losses;  ///< what no file that is written from it gets, one sentence each
-  bool is_geographic = false;       ///< the file says that x and y are longitude and latitude, in degrees
   std::shared_ptr<const OriginalFile> original;  ///< null for a document that was not read from a file
 
   /// Points.

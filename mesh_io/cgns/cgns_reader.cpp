@@ -314,7 +314,7 @@ class CgnsReader {
     std::vector<NamedSet> groups = of_cells_.take();
     const bool has_groups = !groups.empty();
     if (zones_.size() > 1) {
-      document_.notes.push_back(
+      document_.notes.emplace_back(
           "The file has several zones, which are joined: "
           "each is a group, and vertices that they "
           "have in common are those of each of them.");

@@ -30,7 +30,7 @@ class CgnsSectionsReader {
     for (CgnsNode& node : tree_.children(zone.path, "Elements_t")) {
       stated.push_back(read_head(std::move(node)));
     }
-    std::ranges::stable_sort(stated, {}, &StatedSection::first);
+    std::ranges::sort(stated, {}, &StatedSection::first);  // (Two of one first number are refused.)
     std::vector<CgnsSection> sections;
     for (std::size_t i = 0; i < stated.size(); ++i) {
       const StatedSection& section = stated[i];

@@ -25,8 +25,6 @@ namespace {
 constexpr std::size_t most_name_size = 32;
 /// A slash stands between the names of a path.
 constexpr std::string_view no_name_characters = "/";
-const std::string base_path = "/Base";
-const std::string zone_path = base_path + "/Zone";
 
 /// The cells of each type in the order in which they are written; polygons
 /// behind all others.
@@ -116,16 +114,16 @@ class CgnsWriter {
       }
     }
     dimension_ = dimension;
-    add(base_path, "CGNSBase_t", "I4", std::vector<std::int32_t>{dimension, static_cast<std::int32_t>(axes_)});
-    add(zone_path, "Zone_t", "I4",
+    add(base_path_, "CGNSBase_t", "I4", std::vector<std::int32_t>{dimension, static_cast<std::int32_t>(axes_)});
+    add(zone_path_, "Zone_t", "I4",
         std::vector<std::int32_t>{static_cast<std::int32_t>(document_.point_count()), static_cast<std::int32_t>(cells),
                                   0},
         {3, 1});
-    add_text(zone_path + "/ZoneType", "ZoneType_t", "Unstructured");
+    add_text(zone_path_ + "/ZoneType", "ZoneType_t", "Unstructured");
   }
 
   void write_coordinates() {
-    const std::string grid = zone_path + "/GridCoordinates";
+    const std::string grid = zone_path_ + "/GridCoordinates";
     make_node(grid, "GridCoordinates_t", "MT");
     for (std::size_t axis = 0; axis < axes_; ++axis) {
       const auto write_as = [&](auto zero, std::string_view type) {
@@ -162,7 +160,7 @@ class CgnsWriter {
         numbers_[cell] = next++;
       }
       const std::int64_t type = are_polygons ? cgns_type::polygons : cgns_elements()[i].number;
-      const std::string section = zone_path + "/Elements_" + std::to_string(type);
+      const std::string section = zone_path_ + "/Elements_" + std::to_string(type);
       add(section, "Elements_t", "I4", std::vector<std::int32_t>{static_cast<std::int32_t>(type), 0});
       const auto count = static_cast<std::int32_t>(sections[i].size());
       add(section + "/ElementRange", "IndexRange_t", "I4", std::vector<std::int32_t>{next - count, next - 1});
@@ -194,7 +192,7 @@ class CgnsWriter {
         conditions[{group, "Vertex"}].push_back(static_cast<std::int32_t>(point) + 1);
       }
     }
-    const std::string all = zone_path + "/ZoneBC";
+    const std::string all = zone_path_ + "/ZoneBC";
     make_node(all, "ZoneBC_t", "MT");
     std::size_t number = 0;
     for (const auto& [key, members] : conditions) {
@@ -205,10 +203,11 @@ class CgnsWriter {
       add_text(condition + "/FamilyName", "FamilyName_t", names[key.first]);
     }
     for (const std::string& name : names) {
-      const std::string family = base_path + "/" + name;
+      std::string family = base_path_ + "/";
+      family += name;
       make_node(family, "Family_t", "MT");
       // Gmsh's name of the group.
-      add_text(family + "/" + name, "FamilyName_t", name);
+      add_text(family.append("/").append(name), "FamilyName_t", name);
     }
   }
 
@@ -217,6 +216,8 @@ class CgnsWriter {
   }
 
   Hdf5Writer file_;
+  const std::string base_path_ = "/Base";
+  const std::string zone_path_ = "/Base/Zone";
   const MeshDocument& document_;
   GroupLists lists_;
   std::size_t axes_ = 2;

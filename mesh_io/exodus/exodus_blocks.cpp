@@ -203,7 +203,7 @@ std::vector<std::pair<std::size_t, const NetcdfVariable*>> numbered_variables(co
       }
     }
   }
-  std::ranges::stable_sort(found, {}, [](const auto& variable) { return variable.first; });
+  std::ranges::sort(found);  // of one number in the order of the file
   return found;
 }
 

@@ -148,7 +148,7 @@ class Planner {
     for (const auto& [key, block] : places) {
       plan_.blocks.push_back(std::move(blocks[block]));
     }
-    std::ranges::stable_sort(plan_.blocks, {}, [](const ExodusPlanBlock& block) {
+    std::ranges::sort(plan_.blocks, {}, [](const ExodusPlanBlock& block) {
       return std::pair(block.shape.nodes == 0 ? 3 : cell_type::dimension(block.shape.type) == 2 ? 0 : 1, block.id);
     });
     std::int32_t before = -1;

@@ -42,7 +42,7 @@ Hdf5Handle open_bytes(std::string_view bytes) {
   void* const place = const_cast<char*>(bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
   H5FD_file_image_callbacks_t callbacks{&same_bytes, &copy_nothing, &never_grow, &keep_bytes,
                                         &same_data,  &keep_data,    place};
-  if (H5Pset_fapl_core(access.get(), std::size_t{1} << 16, 0) < 0 ||
+  if (H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false) < 0 ||
       H5Pset_file_image_callbacks(access.get(), &callbacks) < 0 ||
       H5Pset_file_image(access.get(), place, bytes.size()) < 0) {
     return {};
@@ -332,13 +332,13 @@ std::vector<std::string> Hdf5Reader::read_texts_of(const Source& source) const {
     fail(source.name, "declares more text than the file holds");
   }
   std::vector<char*> read(count, nullptr);
-  if (!source.read(source.type.get(), read.data())) {
+  if (!source.read(source.type.get(), static_cast<void*>(read.data()))) {
     fail(source.name, "cannot be read" + hdf5_reason());
   }
   for (std::size_t i = 0; i < count; ++i) {
     texts[i] = read[i] == nullptr ? std::string() : trimmed(read[i]);
   }
-  H5Dvlen_reclaim(source.type.get(), space.get(), H5P_DEFAULT, read.data());
+  H5Dvlen_reclaim(source.type.get(), space.get(), H5P_DEFAULT, static_cast<void*>(read.data()));
   return texts;
 }
 

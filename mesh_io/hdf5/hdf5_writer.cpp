@@ -72,7 +72,7 @@ Hdf5Writer::Hdf5Writer(std::filesystem::path file, Hdf5Handle handle, bool is_in
 Hdf5Writer Hdf5Writer::make(const std::filesystem::path& file) {
   const Hdf5Lock lock;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-  H5Pset_fapl_core(access.get(), std::size_t{1} << 20, 0);
+  H5Pset_fapl_core(access.get(), std::size_t{1} << 20, false);
   return {file, {H5Fcreate(name_in_memory().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), &H5Fclose}, true};
 }
 
@@ -81,7 +81,7 @@ Hdf5Writer Hdf5Writer::change(const std::filesystem::path& file) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
 #if H5_VERSION_GE(1, 10, 7) && !(H5_VERS_MAJOR == 1 && H5_VERS_MINOR == 12 && H5_VERS_RELEASE == 0)
   // The file is nobody else's yet; file systems that know no locks do as well.
-  H5Pset_file_locking(access.get(), 0, 1);
+  H5Pset_file_locking(access.get(), false, true);
 #endif
   return {file, {H5Fopen(file.c_str(), H5F_ACC_RDWR, access.get()), &H5Fclose}, false};
 }
@@ -92,7 +92,7 @@ Hdf5Writer Hdf5Writer::change(const std::filesystem::path& file, std::string_vie
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
   H5FD_file_image_callbacks_t callbacks{&Image::give, &Image::copy_nothing, &Image::grow, &Image::free_nothing,
                                         &Image::same, &Image::keep,         image.get()};
-  H5Pset_fapl_core(access.get(), std::size_t{1} << 16, 0);
+  H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false);
   H5Pset_file_image_callbacks(access.get(), &callbacks);
   H5Pset_file_image(access.get(), image->bytes.data(), image->size);
   Hdf5Writer writer(file, {H5Fopen(name_in_memory().c_str(), H5F_ACC_RDWR, access.get()), &H5Fclose}, true);
@@ -150,7 +150,7 @@ void Hdf5Writer::write(const std::string& dataset, std::span<const std::uint64_t
                        std::span<const std::byte> values) {
   const Hdf5Handle above = groups_above();
   const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
-  H5Pset_obj_track_times(properties.get(), 0);
+  H5Pset_obj_track_times(properties.get(), false);
   const Hdf5Handle space = space_of(extents);
   const Hdf5Handle made(
       H5Dcreate2(handle_.get(), dataset.c_str(), type, space.get(), above.get(), properties.get(), H5P_DEFAULT),

@@ -15,7 +15,7 @@ namespace trismooth {
 namespace {
 
 /// All nodes.
-const std::string no_profile = "MED_NO_PROFILE_INTERNAL";
+constexpr std::string_view no_profile = "MED_NO_PROFILE_INTERNAL";
 /// More than any tensor has.
 constexpr std::uint64_t most_components = 100;
 
@@ -57,7 +57,8 @@ class MedFieldsReader {
         continue;
       }
       for (const Hdf5Member& support : file_.members(step)) {
-        const std::string values = step + "/" + support.name + "/" + no_profile + "/CO";
+        std::string values = step + "/";
+        values.append(support.name).append("/").append(no_profile).append("/CO");
         const bool has_all = support.name == "NOE" && file_.kind_of(values) == Hdf5Kind::dataset;
         if (!has_all || !read_values(values, steps.size() == 1 ? name : name_of_step(name, step, i))) {
           kept_.insert(name);

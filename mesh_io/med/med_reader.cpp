@@ -342,7 +342,8 @@ class MedReader {
   FamilyGroups read_families(const std::string& all) {
     FamilyGroups families;
     for (const std::string& name : groups_in(all)) {
-      const std::string family = all + "/" + name;
+      std::string family = all + "/";
+      family += name;
       const auto number = integer_attribute(family, "NUM");
       if (!number) {
         fail_at(family, "has no number (NUM)");

@@ -19,8 +19,6 @@ namespace trismooth {
 
 namespace {
 
-const std::string mesh_name = "mesh";
-const std::string all_families = "/FAS/" + mesh_name;
 constexpr std::string_view all_entities = "MED_NO_PROFILE_INTERNAL";
 /// No step in time.
 constexpr std::int64_t no_step = -1;
@@ -35,7 +33,7 @@ class MedWriter {
     write_mesh_head();
     write_nodes();
     write_elements();
-    set(all_families + "/FAMILLE_ZERO", {{"NUM", 0}});
+    set(all_families_ + "/FAMILLE_ZERO", {{"NUM", 0}});
     write_families("NOEUD", families_.of_points);
     write_families("ELEME", families_.of_cells);
     file_.close();
@@ -72,7 +70,7 @@ class MedWriter {
     for (const std::uint8_t type : document_.cells.types) {
       dimension = std::max<std::int64_t>(dimension, cell_type::dimension(type));
     }
-    const std::string mesh = "/ENS_MAA/" + mesh_name;
+    const std::string mesh = "/ENS_MAA/" + mesh_name_;
     set(mesh, {{"DIM", std::min(dimension, axes_)},
                {"ESP", axes_},
                {"REP", 0},
@@ -172,7 +170,8 @@ class MedWriter {
 
   void write_families(const std::string& kind, const std::vector<MedFamily>& families) {
     for (const MedFamily& family : families) {
-      const std::string group = all_families + "/" + kind + "/FAM_" + std::to_string(family.number);
+      std::string group = all_families_;
+      group.append("/").append(kind).append("/FAM_").append(std::to_string(family.number));
       set(group, {{"NUM", family.number}});
       set(group + "/GRO", {{"NBR", std::ssize(family.groups)}});
       std::string names;
@@ -189,7 +188,9 @@ class MedWriter {
   const MeshDocument& document_;
   MedFamilies families_;
   std::int64_t axes_ = 2;
-  const std::string step_ = "/ENS_MAA/" + mesh_name + "/-0000000000000000001-0000000000000000001";
+  const std::string mesh_name_ = "mesh";
+  const std::string all_families_ = "/FAS/" + mesh_name_;
+  const std::string step_ = "/ENS_MAA/" + mesh_name_ + "/-0000000000000000001-0000000000000000001";
 };
 
 }  // namespace

@@ -117,6 +117,7 @@ void NetcdfFile::read_classic(const NetcdfVariable& variable, std::uint64_t offs
     const char* const from = bytes_.data() + offset;
     for_file_blocks(workers_, values.size(), sizeof(Stored), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        // NOLINTNEXTLINE(bugprone-signed-char-misuse): it is a number
         values[i] = static_cast<T>(load<std::endian::big, Stored>(from + sizeof(Stored) * i));
       }
     });

@@ -37,8 +37,10 @@ CellIndex::Level CellIndex::sorted(const CellList& cells, std::vector<std::int32
   }
   std::vector<std::size_t> order(unsorted.cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&unsorted](std::size_t a, std::size_t b) {
-    return std::ranges::lexicographical_compare(unsorted[a], unsorted[b]);
+  std::ranges::sort(order, [&unsorted](std::size_t a, std::size_t b) {
+    const std::span<const std::int32_t> of_a = unsorted[a];
+    const std::span<const std::int32_t> of_b = unsorted[b];
+    return std::ranges::equal(of_a, of_b) ? a < b : std::ranges::lexicographical_compare(of_a, of_b);
   });
   Level level{.cells = {}, .offsets = {0}, .vertices = {}};
   for (const std::size_t i : order) {

@@ -323,6 +323,7 @@ std::vector<T> XdmfItems::read_binary(const XdmfItem& item) {
   visit_scalar_type(*item.type, [&](auto number) {
     for (std::size_t i = 0; i < count; ++i) {
       std::memcpy(&number, bytes.data() + item.begin + i * size, size);
+      // NOLINTNEXTLINE(bugprone-signed-char-misuse): it is a number
       values[i] = static_cast<T>(is_swapped ? with_bytes_reversed(number) : number);
     }
   });

@@ -174,7 +174,7 @@ void write_topology(BufferedWriter& text, ItemWriter& items, const CellList& all
       }
       numbers.insert(numbers.end(), cell.begin(), cell.end());
     }
-    text.write("      <Topology TopologyType=\"Mixed\" NumberOfElements=\"" + count + "\">\n");
+    text.write(R"(      <Topology TopologyType="Mixed" NumberOfElements=")" + count + "\">\n");
     const std::array<std::uint64_t, 1> extents{numbers.size()};
     items.write("/topology", extents, ScalarType::int32, numbers);
   }
