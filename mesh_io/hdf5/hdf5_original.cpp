@@ -9,6 +9,7 @@
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/document/patched_original.h"
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/hdf5/hdf5_reader.h"
 #include "trismooth/mesh_io/hdf5/hdf5_writer.h"
 
@@ -35,7 +36,7 @@ class Hdf5Original : public OriginalFile {
              Workers& /*workers*/) const override {
     require_same_points(path, document, points_, "nodes", added_point_arrays, added_cell_arrays);
     std::map<std::string, std::vector<double>> changed;
-    {
+    try {
       const Hdf5Reader reader(path, bytes_);
       for (const auto& [dataset, columns] : columns_) {
         std::vector<double> values = reader.read<double>(dataset);
@@ -43,6 +44,8 @@ class Hdf5Original : public OriginalFile {
           changed.emplace(dataset, std::move(values));
         }
       }
+    } catch (const ReadError&) {
+      throw WriteError(path, "the file that was read is damaged: HDF5 has read it once, and not a second time");
     }
     if (changed.empty()) {
       BufferedWriter writer(path);

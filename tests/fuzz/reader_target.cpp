@@ -56,9 +56,20 @@ MeshDocument read_again(FileFormat format, const std::string& bytes, const std::
   }
 }
 
-std::string written_back(const MeshDocument& document) {
+bool is_kept_by_hdf5(FileFormat format) {
+  return trismooth::codec_of(format).description.library == "HDF5";
+}
+
+/// Nothing where a library refuses it: what HDF5 needs to change a file may be damaged, and nothing of what it needs to
+/// read it.
+std::optional<std::string> written_back(const MeshDocument& document) {
   const MemoryFile file;
-  document.original->write(file.path(), document, {}, {});
+  try {
+    document.original->write(file.path(), document, {}, {});
+  } catch (const WriteError&) {
+    require(is_kept_by_hdf5(document.format), "what was read is not written back");
+    return std::nullopt;
+  }
   return file.bytes();
 }
 
@@ -71,12 +82,15 @@ void require_equal(const std::string& difference, const std::string& what) {
 }
 
 void check_written_back(const MeshDocument& document, std::string_view bytes) {
-  const std::string written = written_back(document);
-  if (keeps_bytes(document.format)) {
-    require(written == bytes, "writing an unmoved mesh changes its file");
+  const std::optional<std::string> written = written_back(document);
+  if (!written) {
     return;
   }
-  const MeshDocument again = read_again(document.format, written, "what was written back");
+  if (keeps_bytes(document.format)) {
+    require(*written == bytes, "writing an unmoved mesh changes its file");
+    return;
+  }
+  const MeshDocument again = read_again(document.format, *written, "what was written back");
   require_equal(difference(document, again, Comparison::exact), "writing back loses something");
   require(written_back(again) == written, "writing back twice gives another file");
 }
@@ -239,7 +253,11 @@ void round_moved(MeshDocument& document, const std::vector<double>& before) {
 }
 
 void check_moved(const MeshDocument& document) {
-  const MeshDocument again = read_again(document.format, written_back(document), "a smoothed mesh");
+  const std::optional<std::string> written = written_back(document);
+  if (!written) {
+    return;
+  }
+  const MeshDocument again = read_again(document.format, *written, "a smoothed mesh");
   // Corners that came to lie on each other become one vertex in STL.
   require_equal(document.format == FileFormat::stl ? difference_of_corners(document, again)
                                                    : difference(document, again, Comparison::exact),
@@ -274,7 +292,7 @@ void check_parts(FileFormat format, const std::string& bytes) {
   using trismooth::FileWorkers;
   const auto reading = [&](std::size_t part_bytes) {
     const FileWorkers workers(alone, part_bytes);
-    return keeps_bytes(format)
+    return keeps_bytes(format) && !is_kept_by_hdf5(format)
                ? test_support::reading_and_sites_of(test_support::one_file_codec(format), bytes, workers)
                : test_support::reading_of(test_support::one_file_codec(format), bytes, workers);
   };
