@@ -163,7 +163,10 @@ std::pair<int, int> size_of(const Box& window, double most) {
 StillPicture still(const ElementShades& shades, const MeshLines& lines, bool is_large, Workers& workers) {
   StillOptions options;
   options.window = with_room(shades.box());
-  std::tie(options.width, options.height) = size_of(*options.window, is_large ? 2400 : 1000);
+  // (Of a million elements a pixel has several, of which it shows the worst, at any such size.)
+  constexpr std::size_t many = 1'000'000;
+  const int most = is_large ? 2400 : shades.elements().size() > many ? 600 : 1000;
+  std::tie(options.width, options.height) = size_of(*options.window, most);
   options.threads = workers.count();
   return draw_still(shades, &lines, options);
 }
