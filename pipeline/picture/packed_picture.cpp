@@ -40,7 +40,7 @@ std::int32_t nearest(double number) {
 
 /// Deflates planes of bytes one behind the other. Nothing repeats in them but runs, where they are nearly empty; else
 /// how often each byte is there is what there is to win. Where that is too little for the time it takes they are
-/// stored: less than an eighth, and of many bytes less than four fifths.
+/// stored: less than an eighth, and of many bytes less than half.
 class PlaneDeflater {
  public:
   /// Of so many bytes in all.
@@ -60,7 +60,7 @@ class PlaneDeflater {
   void add(std::string_view plane, bool is_last) {
     const double bits = bits_of_a_byte(plane);
     constexpr std::size_t many = std::size_t{1} << 19U;
-    const bool is_stored = bits > (plane.size() > many ? 1.5 : 7);
+    const bool is_stored = bits > (plane.size() > many ? 4 : 7);
     run([&] { return deflateParams(&z_, is_stored ? 0 : level, bits > 1 ? Z_HUFFMAN_ONLY : Z_RLE); });
     constexpr std::size_t most_at_once = std::size_t{1} << 30U;
     for (std::size_t given = 0; given < plane.size(); given += most_at_once) {
