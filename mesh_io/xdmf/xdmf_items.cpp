@@ -243,6 +243,10 @@ XdmfItem XdmfItems::find(const XmlElement& element) {
     item.begin = at->content_begin;
     item.end = at->content_end;
     item.key = "x" + std::to_string(item.begin);
+    // Text has the digits that it has: DOLFINx writes 16 of them, and no Precision.
+    if (precision.empty() && item.type == ScalarType::float32) {
+      item.type = ScalarType::float64;
+    }
   } else {
     fail(at->line, "Format=" + quoted(std::string_view(format)) + " is not read: XML, HDF and Binary are");
   }

@@ -148,6 +148,16 @@ TEST_CASE("XDMF: text is written back byte by byte but for coordinates that diff
   }
 }
 
+TEST_CASE("XDMF: text that tells no precision keeps all digits of what is written back") {
+  const std::string text = file(
+      grid(two_triangles + "<Geometry GeometryType=\"XY\"><DataItem Dimensions=\"4 2\">0.1234567890123456 0 1 0 1 1 "
+                           "0 1</DataItem></Geometry>"));
+  MeshDocument document = xdmf.read(text);
+  CHECK(document.points[0] == 0.1234567890123456);
+  document.points[3] = 1.0 / 3;
+  CHECK(xdmf.read(xdmf.written(document)).points == document.points);
+}
+
 TEST_CASE("XDMF: sets of points and cells come by their names") {
   const auto set = [](std::string_view type, std::string_view members) {
     return "<Set Name=\"s\" SetType=\"" + std::string(type) + "\"><DataItem NumberType=\"Int\" Dimensions=\"2\">" +
