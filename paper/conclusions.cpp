@@ -10,7 +10,7 @@
 
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/paper/wording.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth::experiments {
 

@@ -12,7 +12,7 @@
 #include "trismooth/paper/wording.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 #include "trismooth/version.h"
 
 namespace trismooth::experiments {

@@ -11,8 +11,8 @@
 #include "trismooth/paper/experiment_report.h"
 #include "trismooth/paper/wording.h"
 #include "trismooth/pipeline/report/labelled_line.h"
-#include "trismooth/quality/report_text.h"
-#include "trismooth/quality/text_columns.h"
+#include "trismooth/quality/text/report_text.h"
+#include "trismooth/quality/text/text_columns.h"
 #include "trismooth/version.h"
 
 namespace trismooth::experiments {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/paper/wording.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth::experiments {
 

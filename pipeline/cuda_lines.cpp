@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "trismooth/cuda/devices.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 

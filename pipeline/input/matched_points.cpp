@@ -16,7 +16,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/pipeline/input/element_cells.h"
 #include "trismooth/pipeline/input/planar_mesh.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 

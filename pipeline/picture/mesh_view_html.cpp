@@ -30,7 +30,7 @@
 #include "trismooth/pipeline/picture/viewer_text.h"
 #include "trismooth/pipeline/report/html_text.h"
 #include "trismooth/quality/metrics.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 

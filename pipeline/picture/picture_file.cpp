@@ -16,7 +16,7 @@
 #include "trismooth/pipeline/picture/png_text.h"
 #include "trismooth/pipeline/picture/svg_picture.h"
 #include "trismooth/pipeline/report/report_format.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 

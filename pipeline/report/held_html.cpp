@@ -8,7 +8,7 @@
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 

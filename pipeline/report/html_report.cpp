@@ -25,8 +25,8 @@
 #include "trismooth/pipeline/report/svg_charts.h"
 #include "trismooth/pipeline/report/text_report.h"
 #include "trismooth/pipeline/report/timings.h"
-#include "trismooth/quality/report_text.h"
 #include "trismooth/quality/size_ratio.h"
+#include "trismooth/quality/text/report_text.h"
 #include "trismooth/version.h"
 
 namespace trismooth {

@@ -15,8 +15,8 @@
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
 #include "trismooth/quality/metrics.h"
-#include "trismooth/quality/report_text.h"
-#include "trismooth/quality/text_columns.h"
+#include "trismooth/quality/text/report_text.h"
+#include "trismooth/quality/text/text_columns.h"
 
 namespace trismooth {
 

@@ -12,8 +12,8 @@
 #include "trismooth/pipeline/report/held_text.h"
 #include "trismooth/pipeline/report/labelled_line.h"
 #include "trismooth/pipeline/report/region_table.h"
-#include "trismooth/quality/quality_table.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/quality_table.h"
+#include "trismooth/quality/text/report_text.h"
 #include "trismooth/smoothing/cpu_backend.h"
 
 namespace trismooth {

@@ -31,8 +31,8 @@
 #include "trismooth/pipeline/stages/stored_result.h"
 #include "trismooth/quality/element.h"
 #include "trismooth/quality/orientation.h"
-#include "trismooth/quality/report_text.h"
 #include "trismooth/quality/size_change.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 

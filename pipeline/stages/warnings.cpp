@@ -19,7 +19,7 @@
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/stages/run_context.h"
 #include "trismooth/pipeline/stages/staged_mesh.h"
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 

@@ -15,8 +15,8 @@
 
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/quality/metrics.h"
-#include "trismooth/quality/quality_table.h"
 #include "trismooth/quality/size_ratio.h"
+#include "trismooth/quality/text/quality_table.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;

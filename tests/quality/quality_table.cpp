@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/quality/quality_table.h"
+#include "trismooth/quality/text/quality_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "trismooth/quality/quality_table.h"
+#include "trismooth/quality/text/quality_table.h"
 
 #include "catch.h"
 #include "support/test_meshes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/quality/text_columns.h"
+#include "trismooth/quality/text/text_columns.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/quality/report_text.h"
+#include "trismooth/quality/text/report_text.h"
 
 #include <algorithm>
 #include <cmath>

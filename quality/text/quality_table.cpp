@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/quality/quality_table.h"
+#include "trismooth/quality/text/quality_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "trismooth/base/text/digits.h"
-#include "trismooth/quality/report_text.h"
 #include "trismooth/quality/size_ratio.h"
-#include "trismooth/quality/text_columns.h"
+#include "trismooth/quality/text/report_text.h"
+#include "trismooth/quality/text/text_columns.h"
 
 namespace trismooth {
 
