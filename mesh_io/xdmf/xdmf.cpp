@@ -12,7 +12,8 @@ namespace trismooth {
 
 namespace {
 
-constexpr FormatDescription description{FileFormat::xdmf, "xdmf", "XDMF", {".xdmf", ".xmf"}, {.arrays = true}};
+constexpr FormatDescription description{
+    FileFormat::xdmf, "xdmf", "XDMF", {".xdmf", ".xmf"}, {.arrays = true, .names = true}};
 
 #ifdef TRISMOOTH_HAS_XML
 bool is_xdmf(std::string_view bytes) {

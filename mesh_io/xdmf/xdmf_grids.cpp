@@ -71,6 +71,8 @@ class GridFinder {
         grid.attributes.push_back(child);
       } else if (child->name == "Set") {
         grid.sets.push_back(child);
+      } else if (child->name == "Information") {
+        grid.information.push_back(child);
       }
     }
     if (grid.topology == nullptr || grid.geometry == nullptr) {

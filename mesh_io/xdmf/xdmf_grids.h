@@ -18,6 +18,7 @@ struct XdmfGrid {
   const XmlElement* geometry = nullptr;
   XmlElements attributes{};
   XmlElements sets{};
+  XmlElements information{};
 };
 
 /// The grids of an XDMF file.

@@ -23,6 +23,7 @@
 #include "trismooth/mesh_io/xdmf/xdmf_cell_index.h"
 #include "trismooth/mesh_io/xdmf/xdmf_grids.h"
 #include "trismooth/mesh_io/xdmf/xdmf_items.h"
+#include "trismooth/mesh_io/xdmf/xdmf_names.h"
 #include "trismooth/mesh_io/xdmf/xdmf_original.h"
 #include "trismooth/mesh_io/xdmf/xdmf_topology.h"
 #include "trismooth/mesh_io/xml/xml_tree.h"
@@ -59,7 +60,7 @@ class XdmfReader {
   XdmfReader(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers)
       : path_(path),
         bytes_(std::move(bytes)),
-        head_(parse_xml_head(path, bytes_, {}, {}, XmlDocumentType::without_entities)),
+        head_(parse_xml_head(path, bytes_, {}, {"Information"}, XmlDocumentType::without_entities)),
         paths_(path, head_.root),
         items_(path, bytes_, workers, paths_) {
     if (head_.root.name != "Xdmf") {
@@ -423,6 +424,11 @@ class XdmfReader {
     MemberBudget budget(path_, bytes);
     document_.point_arrays = point_arrays_.take(document_.point_count(), budget);
     document_.cell_arrays = cell_arrays_.take(document_.cells.size(), budget);
+    for (const XdmfGrid& grid : grids.first) {
+      for (const XmlElement* const information : grid.information) {
+        add_xdmf_names(path_, information->text, document_);
+      }
+    }
     document_.point_type = has_float64_ || !has_float32_ ? ScalarType::float64 : ScalarType::float32;
     document_.has_float32_axis = has_float32_ && has_float64_;
     add_notes(grids);

@@ -18,6 +18,7 @@
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/mesh_io/text/number_text.h"
+#include "trismooth/mesh_io/xdmf/xdmf_names.h"
 #include "trismooth/mesh_io/xdmf/xdmf_topology.h"
 #include "trismooth/mesh_io/xml/xml_names.h"
 #ifdef TRISMOOTH_HAS_HDF5
@@ -266,14 +267,18 @@ void write_xdmf(const std::filesystem::path& path, const MeshDocument& document,
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n    <Grid Name=\"mesh\" GridType=\"Uniform\">\n");
   write_topology(text, items, document.cells, written);
   write_geometry(text, items, document);
+  const XdmfWrittenArrays arrays = xdmf_written_arrays(document);
   std::size_t number = 0;
-  for (const DataArray& array : document.point_arrays) {
+  for (const DataArray& array : arrays.of_points) {
     write_array(text, items, array, "Node", "/point_array_" + std::to_string(number++), nullptr);
   }
   number = 0;
-  for (const DataArray& array : document.cell_arrays) {
+  for (const DataArray& array : arrays.of_cells) {
     write_array(text, items, array, "Cell", "/cell_array_" + std::to_string(number++),
                 written.count == document.cells.size() ? nullptr : &written.cells);
+  }
+  if (const std::string names = xdmf_names(document, arrays); !names.empty()) {
+    text.write("      <Information Name=\"names\"><![CDATA[" + names + "]]></Information>\n");
   }
   text.write("    </Grid>\n  </Domain>\n</Xdmf>\n");
   items.close();

@@ -271,6 +271,53 @@ TEST_CASE("XDMF: what is written from another format reads back the same, and bo
   CHECK(other.size() == 1);
 }
 
+TEST_CASE("XDMF: names of values and sets that come from another format read back the same") {
+  MeshDocument document;
+  document.format = FileFormat::msh;
+  document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 1, 2});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 2, 3});
+  DataArray groups = make_data_array("group", 1, std::vector<std::int32_t>{7, 7, -9});
+  ArrayDescription names;
+  names.value_names = {{7, 1, "wall <]]> & \"more\""}, {-9, 2, "copper"}, {7, 2, "steel"}};
+  groups.description = std::make_shared<const ArrayDescription>(names);
+  document.cell_arrays.push_back(groups);
+  document.point_arrays.push_back(make_data_array("sensors", 1, std::vector<double>{1, 2, 3, 4}));
+  document.point_sets = {{"sensors", {0, 3}}, {"none", {}}, {"all", {0, 1, 2, 3}}};
+  document.cell_sets = {{"group", {2}}, {"core", {1, 2}}};
+  const ScratchFolder folder;
+  for (const std::string& name : {std::string("out.xdmf"), std::string("out.xdmf.gz")}) {
+    CAPTURE(name);
+    write_mesh(folder / name, document);
+    const MeshDocument read = read_mesh(folder / name);
+    CHECK(read.point_sets == document.point_sets);
+    CHECK(read.cell_sets == document.cell_sets);
+    REQUIRE(read.cell_arrays.size() == 1);
+    CHECK(values_of<std::int32_t>(read.cell_arrays, "group") == std::vector<std::int32_t>{7, 7, -9});
+    REQUIRE(read.cell_arrays[0].description != nullptr);
+    CHECK(std::ranges::is_permutation(read.cell_arrays[0].description->value_names, names.value_names));
+    REQUIRE(read.point_arrays.size() == 1);
+    CHECK(values_of<double>(read.point_arrays, "sensors") == std::vector<double>{1, 2, 3, 4});
+  }
+}
+
+TEST_CASE("XDMF: an <Information> of any kind is left alone") {
+  const std::string array = attribute("group", "Cell", "2", "1 2");
+  for (const std::string_view content :
+       {"<![CDATA[<main><map key=\"a\" dim=\"2\" array=\"group\">1]]>",
+        "<![CDATA[<main><map key=\"a\" dim=\"2\">1</map></main>]]>",
+        "<![CDATA[<main><map key=\"a\" dim=\"9\" array=\"group\">1</map></main>]]>", "made by hand", ""}) {
+    CAPTURE(content);
+    const std::string text = file(
+        grid(two_triangles + points() + array + "<Information Name=\"x\">" + std::string(content) + "</Information>"));
+    const MeshDocument document = xdmf.read(text);
+    REQUIRE(document.cell_arrays.size() == 1);
+    CHECK((document.cell_arrays[0].description == nullptr || document.cell_arrays[0].description->value_names.empty()));
+    CHECK(xdmf.written(document) == text);
+  }
+}
+
 TEST_CASE("XDMF: the HDF5 file beside it is led along and changes in coordinates alone") {
   MeshDocument document;
   document.format = FileFormat::vtu;

@@ -8,7 +8,6 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "end_to_end"))
 
 try:
-    import h5py
     import medcoupling
     import meshio
     import numpy
@@ -119,6 +118,16 @@ class MedTest(tool.ToolTest):
         self.assertEqual(described["groups"],
                          {name: [(dimension - 2, numpy.flatnonzero(arrays[dimension - 1] == number).tolist())]
                           for name, (number, dimension) in names.items()})
+
+    def test_its_groups_go_by_way_of_xdmf_and_back(self):
+        self.write_medcoupling("in.med")
+        self.run_tool("smooth", "in.med", "out.xdmf")
+        self.assertEqual(meshio.read(self.path("out.xdmf")).field_data.keys(),
+                         {"steel", "concrete and a long name", "bottom", "right", "sensors"})
+        self.run_tool("smooth", "out.xdmf", "back.med")
+        (before, _), (after, _) = (self.described(name) for name in ("in.med", "back.med"))
+        for what in ("levels", "groups", "cells"):
+            self.assertEqual(before[what], after[what])
 
 
 if __name__ == "__main__":

@@ -104,6 +104,14 @@ void add_xdmf(std::vector<AcceptedFile>& files) {
           element("Attribute", R"(Name="region" AttributeType="Scalar" Center="Cell")",
                   item(R"(NumberType="Int" Precision="8" Dimensions="4")", "1 1 2 2\n")) +
           element("Set", R"(Name="inlet" SetType="Node")", item(R"(NumberType="Int" Dimensions="2")", "0 3\n")))));
+  add("names",
+      file(plain_grid(
+          element("Attribute", R"(Name="inlet" AttributeType="Scalar" Center="Node")",
+                  item(R"(NumberType="Int" Precision="1" Dimensions="5")", "1 0 0 1 0\n")) +
+          element("Attribute", R"(Name="region" AttributeType="Scalar" Center="Cell")",
+                  item(R"(NumberType="Int" Precision="8" Dimensions="4")", "1 1 2 2\n")) +
+          R"x(<Information Name="names"><![CDATA[<main><map key="inlet" dim="0" array="inlet" set="1">1</map>)x" +
+          R"x(<map key="steel" dim="2" array="region">1</map></main>]]></Information>)x")));
   add("tags",
       file(plain_grid() +
            uniform(R"x(<xi:include xpointer="xpointer(/Xdmf/Domain/Grid/Geometry)" />)x" +
