@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/file_format.h"
 #include "trismooth/mesh_io/netcdf/netcdf_header.h"
 #include "trismooth/mesh_io/text/blanks.h"

@@ -7,6 +7,7 @@
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/document/format_losses.h"

@@ -10,8 +10,8 @@
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/hdf5/hdf5_changes.h"
 #include "trismooth/mesh_io/hdf5/hdf5_reader.h"
-#include "trismooth/mesh_io/hdf5/hdf5_writer.h"
 
 namespace trismooth {
 
@@ -35,11 +35,16 @@ class Hdf5Original : public OriginalFile {
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
              Workers& /*workers*/) const override {
     require_same_points(path, document, points_, "nodes", added_point_arrays, added_cell_arrays);
-    std::map<std::string, std::vector<double>> changed;
+    Hdf5Values changed;
     try {
       const Hdf5Reader reader(path, bytes_);
       for (const auto& [dataset, columns] : columns_) {
         std::vector<double> values = reader.read<double>(dataset);
+        for (const Hdf5Column& column : columns) {
+          if (column.count > 0 && column.begin + (column.count - 1) * column.step >= values.size()) {
+            throw ReadError(path, "another number of values");
+          }
+        }
         if (update(values, columns, document)) {
           changed.emplace(dataset, std::move(values));
         }
@@ -51,13 +56,9 @@ class Hdf5Original : public OriginalFile {
       BufferedWriter writer(path);
       writer.write(bytes_.view());
       writer.close();
-      return;
+    } else {
+      write_changed_hdf5(path, bytes_, changed);
     }
-    Hdf5Writer file = Hdf5Writer::change(path, bytes_);
-    for (const auto& [dataset, values] : changed) {
-      file.overwrite<double>(dataset, values);
-    }
-    file.close();
   }
 
   bool keeps_values_of(std::string_view point_array) const override {

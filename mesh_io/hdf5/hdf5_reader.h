@@ -4,15 +4,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/data_array.h"
-#include "trismooth/mesh_io/hdf5/hdf5_handle.h"
 
 namespace trismooth {
+
+class Hdf5Child;
+enum class Hdf5Request : std::uint8_t;
 
 /// What a name in a group leads to. Links to elsewhere (soft, external) are not followed.
 enum class Hdf5Kind { group, dataset, link, other };
@@ -32,13 +38,24 @@ struct Hdf5Shape {
   std::uint64_t count() const;
 };
 
+/// Where the numbers of a dataset stand in the file, one after the other as they are.
+struct Hdf5Place {
+  std::uint64_t begin = 0;  ///< byte offset; they end before the file does
+  bool is_big_endian = false;
+};
+
 /// An HDF5 file in memory, to be read. Objects are named by their paths ("/Mesh/0/geometry"), whose names must lead to
 /// groups and datasets of the file itself. Groups may form circles: who descends counts the steps. What is read is
 /// checked against the bytes there are before memory is asked for; whatever is wrong, and names that are missing, is a
-/// ReadError that names the file and the object. One thread at a time calls the library, whoever calls this.
+/// ReadError that names the file and the object. Any thread may call it, one at a time is served.
+///
+/// The library itself reads beyond its memory in some damaged files. So it runs in a child of this process, which
+/// answers questions (Hdf5Child); where it breaks off that is a ReadError. What a child says counts as what a file
+/// says: it is held to the bytes there are. Numbers that stand in the file as they are are taken from there without it.
 class Hdf5Reader {
  public:
-  /// `bytes` are read where they are, and outlive the object; `file` names them in messages.
+  /// `bytes` are read where they are, and outlive the object; `file` names them in messages. Begins a child, which ends
+  /// with the object.
   Hdf5Reader(std::filesystem::path file, std::string_view bytes);
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
@@ -52,6 +69,8 @@ class Hdf5Reader {
   std::optional<Hdf5Kind> kind_of(const std::string& object) const;
 
   Hdf5Shape shape_of(const std::string& dataset) const;
+  /// Nothing where the dataset holds no numbers, or they are packed, or lie apart.
+  std::optional<Hdf5Place> place_of(const std::string& dataset) const;
   /// All numbers of a dataset, row by row, as T: double, float, or a whole number. What is beyond a whole number's
   /// range comes as its largest or smallest; fractions are not read as whole numbers.
   template <class T>
@@ -73,25 +92,34 @@ class Hdf5Reader {
   std::vector<std::string> read_attribute_texts(const std::string& object, const std::string& name) const;
 
  private:
-  struct Source;
+  /// The object, and the name of an attribute of it.
+  using Name = std::pair<std::string, std::optional<std::string>>;
+  /// What the child once said of a dataset or attribute; it is held to that.
+  struct Description {
+    Hdf5Shape shape;
+    std::uint64_t value_size = 0;  ///< bytes
+    std::optional<Hdf5Place> place;
+  };
 
-  [[noreturn]] void fail(const std::string& object, const std::string& message) const;
-  /// Both to be called with the lock held.
-  Hdf5Handle open(const std::string& object) const;
-  Source open_dataset(const std::string& dataset) const;
-  Source open_attribute(const std::string& object, const std::string& name) const;
-  /// Throws unless `source` holds numbers that can be read as `type`, as many as the file's bytes allow.
-  void require_numbers(const Source& source, ScalarType type) const;
-  void require_bytes(const Source& source) const;
-  void read_numbers(const Source& source, ScalarType type, void* values) const;
-  std::vector<std::string> read_texts_of(const Source& source) const;
+  [[noreturn]] void fail(const Name& name, const std::string& message) const;
+  /// All that follow are called with the mutex held. Sends a request; what `receive` returns of the answer.
+  template <class Receive>
+  auto ask(Hdf5Request request, ScalarType type, const Name& name, const Receive& receive) const;
+  /// What `take` returns of the message that is the answer.
+  template <class Take>
+  auto ask(Hdf5Request request, const Name& name, const Take& take) const;
+  const Description& describe(const Name& name) const;
+  template <class T>
+  std::vector<T> read_numbers(const Name& name) const;
+  std::vector<std::string> read_list(Hdf5Request request, const Name& name) const;
+  std::vector<std::string> read_texts(const Name& name) const;
 
   std::filesystem::path file_;
   std::string_view bytes_;
-  Hdf5Handle handle_;
+  std::uint64_t most_;  ///< bytes that an answer may have
+  mutable std::mutex mutex_;
+  std::unique_ptr<Hdf5Child> child_;
+  mutable std::map<Name, Description> descriptions_;
 };
-
-/// Whether the bytes are an HDF5 file that has a group or dataset of that path. Opens the file, reads nothing else.
-bool is_hdf5_with(std::string_view bytes, const std::string& object);
 
 }  // namespace trismooth

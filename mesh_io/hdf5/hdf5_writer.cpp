@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <new>
 #include <utility>
 #include <vector>
 
@@ -37,33 +36,8 @@ Hdf5Handle groups_above() {
 
 }  // namespace
 
-/// The memory that HDF5 works in, which is this object's: a file that is closed there is whole, other than an image
-/// that HDF5 hands out of one that is open.
-struct Hdf5Writer::Image {
-  explicit Image(std::string_view all) : bytes(all), size(all.size()) {}
-
-  std::string bytes;  ///< longer than the file, at times
-  std::size_t size;
-
-  /// Gives the memory, with room for `wanted` bytes; null where there is not as much.
-  static void* grow(void*, std::size_t wanted, H5FD_file_image_op_t, void* image) {
-    std::string& bytes = static_cast<Image*>(image)->bytes;
-    try {
-      bytes.resize(std::max(bytes.size(), wanted));
-    } catch (const std::bad_alloc&) {
-      return nullptr;
-    }
-    return bytes.data();
-  }
-  static void* give(std::size_t, H5FD_file_image_op_t, void* image) { return static_cast<Image*>(image)->bytes.data(); }
-  static void* copy_nothing(void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; }
-  static herr_t free_nothing(void*, H5FD_file_image_op_t, void*) { return 0; }
-  static void* same(void* image) { return image; }
-  static herr_t keep(void*) { return 0; }
-};
-
-Hdf5Writer::Hdf5Writer(std::filesystem::path file, Hdf5Handle handle, bool is_in_memory)
-    : file_(std::move(file)), handle_(std::move(handle)), is_in_memory_(is_in_memory) {
+Hdf5Writer::Hdf5Writer(std::filesystem::path file, Hdf5Handle handle)
+    : file_(std::move(file)), handle_(std::move(handle)) {
   if (!handle_.is_valid()) {
     throw WriteError(file_, "cannot be opened by HDF5" + hdf5_reason());
   }
@@ -73,31 +47,7 @@ Hdf5Writer Hdf5Writer::make(const std::filesystem::path& file) {
   const Hdf5Lock lock;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
   H5Pset_fapl_core(access.get(), std::size_t{1} << 20, false);
-  return {file, {H5Fcreate(name_in_memory().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), &H5Fclose}, true};
-}
-
-Hdf5Writer Hdf5Writer::change(const std::filesystem::path& file) {
-  const Hdf5Lock lock;
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-#if H5_VERSION_GE(1, 10, 7) && !(H5_VERS_MAJOR == 1 && H5_VERS_MINOR == 12 && H5_VERS_RELEASE == 0)
-  // The file is nobody else's yet; file systems that know no locks do as well.
-  H5Pset_file_locking(access.get(), false, true);
-#endif
-  return {file, {H5Fopen(file.c_str(), H5F_ACC_RDWR, access.get()), &H5Fclose}, false};
-}
-
-Hdf5Writer Hdf5Writer::change(const std::filesystem::path& file, std::string_view bytes) {
-  const Hdf5Lock lock;
-  auto image = std::make_shared<Image>(bytes);
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-  H5FD_file_image_callbacks_t callbacks{&Image::give, &Image::copy_nothing, &Image::grow, &Image::free_nothing,
-                                        &Image::same, &Image::keep,         image.get()};
-  H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false);
-  H5Pset_file_image_callbacks(access.get(), &callbacks);
-  H5Pset_file_image(access.get(), image->bytes.data(), image->size);
-  Hdf5Writer writer(file, {H5Fopen(name_in_memory().c_str(), H5F_ACC_RDWR, access.get()), &H5Fclose}, true);
-  writer.image_ = std::move(image);
-  return writer;
+  return {file, {H5Fcreate(name_in_memory().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), &H5Fclose}};
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -107,17 +57,6 @@ Hdf5Writer::~Hdf5Writer() {
 
 void Hdf5Writer::fail(const std::string& object) const {
   throw WriteError(file_, quoted(std::string_view(object)) + " cannot be written" + hdf5_reason());
-}
-
-template <class T>
-void Hdf5Writer::overwrite(const std::string& dataset, std::span<const T> values) {
-  const Hdf5Lock lock;
-  const Hdf5Handle at(H5Dopen2(handle_.get(), dataset.c_str(), H5P_DEFAULT), &H5Dclose);
-  const Hdf5Handle space(at.is_valid() ? H5Dget_space(at.get()) : -1, &H5Sclose);
-  if (!space.is_valid() || H5Sget_simple_extent_npoints(space.get()) != static_cast<hssize_t>(values.size()) ||
-      H5Dwrite(at.get(), hdf5_memory_type(scalar_type_of<T>()), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
-    fail(dataset);
-  }
 }
 
 void Hdf5Writer::make_group(const std::string& group) {
@@ -202,37 +141,21 @@ void Hdf5Writer::set_attribute(const std::string& object, const std::string& nam
 
 void Hdf5Writer::close() {
   const Hdf5Lock lock;
-  if (H5Fflush(handle_.get(), H5F_SCOPE_GLOBAL) < 0) {
+  const ssize_t size =
+      H5Fflush(handle_.get(), H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(handle_.get(), nullptr, 0);
+  std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+  if (size <= 0 || H5Fget_file_image(handle_.get(), image.data(), image.size()) < 0) {
     throw WriteError(file_, "cannot be written by HDF5" + hdf5_reason());
   }
-  if (image_) {
-    const ssize_t size = H5Fget_file_image(handle_.get(), nullptr, 0);
-    if (size < 0 || !handle_.close()) {
-      throw WriteError(file_, "cannot be written by HDF5" + hdf5_reason());
-    }
-    // What stands behind the end of HDF5's part stays.
-    BufferedWriter writer(file_);
-    writer.write(std::string_view(image_->bytes).substr(0, std::max(image_->size, static_cast<std::size_t>(size))));
-    writer.close();
-    return;
-  }
-  if (is_in_memory_) {
-    const ssize_t size = H5Fget_file_image(handle_.get(), nullptr, 0);
-    std::string image(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
-    if (size <= 0 || H5Fget_file_image(handle_.get(), image.data(), image.size()) < 0) {
-      throw WriteError(file_, "cannot be written by HDF5" + hdf5_reason());
-    }
-    BufferedWriter writer(file_);
-    writer.write(image);
-    writer.close();
-  }
+  BufferedWriter writer(file_);
+  writer.write(image);
+  writer.close();
   if (!handle_.close()) {
     throw WriteError(file_, "cannot be written by HDF5" + hdf5_reason());
   }
 }
 
 #define TRISMOOTH_HDF5_WRITE(T)                                                                         \
-  template void Hdf5Writer::overwrite(const std::string& dataset, std::span<const T> values);           \
   template void Hdf5Writer::write(const std::string& dataset, std::span<const std::uint64_t> extents,   \
                                   std::span<const T> values);                                           \
   template void Hdf5Writer::set_attribute(const std::string& object, const std::string& name, T value); \

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,23 +14,14 @@
 
 namespace trismooth {
 
-/// An HDF5 file that is made, or that is on the disk and gets other values. Objects are named by their paths. Throws
-/// WriteError, which names the file. The same calls make the same bytes: no times are kept.
+/// An HDF5 file that is made. Objects are named by their paths. Throws WriteError, which names the file. The same calls
+/// make the same bytes: no times are kept. (write_changed_hdf5() changes one that is there.)
 class Hdf5Writer {
  public:
-  /// A new file, in memory until close() writes it to `file`, a plain path.
+  /// A new file, in memory until close() writes it to `file`, a plain path of any kind.
   static Hdf5Writer make(const std::filesystem::path& file);
-  /// The file that is there.
-  static Hdf5Writer change(const std::filesystem::path& file);
-  /// The file of these bytes, changed in a copy of them until close() writes it to `file`, a plain path of any kind.
-  static Hdf5Writer change(const std::filesystem::path& file, std::string_view bytes);
   Hdf5Writer(Hdf5Writer&&) = default;
   ~Hdf5Writer();
-
-  /// Writes `values`, as many as there are, over those of a dataset: in the type that it has, with its chunks and
-  /// filters.
-  template <class T>
-  void overwrite(const std::string& dataset, std::span<const T> values);
 
   /// Makes a group, and those above it. One that is there is left as it is.
   void make_group(const std::string& group);
@@ -57,9 +47,7 @@ class Hdf5Writer {
   void close();
 
  private:
-  struct Image;
-
-  Hdf5Writer(std::filesystem::path file, Hdf5Handle handle, bool is_in_memory);
+  Hdf5Writer(std::filesystem::path file, Hdf5Handle handle);
 
   [[noreturn]] void fail(const std::string& object) const;
   void write(const std::string& dataset, std::span<const std::uint64_t> extents, hid_t type,
@@ -69,8 +57,6 @@ class Hdf5Writer {
 
   std::filesystem::path file_;
   Hdf5Handle handle_;
-  bool is_in_memory_;
-  std::shared_ptr<Image> image_;  ///< of change() in memory
 };
 
 }  // namespace trismooth

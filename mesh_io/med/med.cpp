@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/codec.h"
-#include "trismooth/mesh_io/hdf5/hdf5_reader.h"
 #include "trismooth/mesh_io/med/med_description.h"
 #include "trismooth/mesh_io/med/med_reader.h"
 #include "trismooth/mesh_io/med/med_writer.h"
@@ -10,7 +10,7 @@ namespace trismooth {
 namespace {
 
 bool is_med(std::string_view bytes) {
-  return is_hdf5_with(bytes, "/ENS_MAA");
+  return is_hdf5_with(bytes, "ENS_MAA");
 }
 
 }  // namespace

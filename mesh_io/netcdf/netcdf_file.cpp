@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "trismooth/mesh_io/bytes/byte_order.h"
+#include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/errors.h"

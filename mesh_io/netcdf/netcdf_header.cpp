@@ -18,8 +18,6 @@ namespace trismooth {
 
 namespace {
 
-using namespace std::string_view_literals;
-
 constexpr std::uint32_t dimension_tag = 10;
 constexpr std::uint32_t variable_tag = 11;
 constexpr std::uint32_t attribute_tag = 12;
@@ -279,10 +277,6 @@ class HeaderReader {
 
 bool is_classic_netcdf(std::string_view bytes) {
   return bytes.size() > 3 && bytes.starts_with("CDF") && (bytes[3] == 1 || bytes[3] == 2 || bytes[3] == 5);
-}
-
-bool is_hdf5(std::string_view bytes) {
-  return bytes.starts_with("\x89HDF\r\n\x1a\n"sv);
 }
 
 NetcdfContent read_netcdf_header(const std::filesystem::path& path, std::string_view bytes) {

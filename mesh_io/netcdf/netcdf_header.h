@@ -11,9 +11,6 @@ namespace trismooth {
 /// Whether the bytes begin as a classic netCDF file: of 32-bit offsets, of 64-bit offsets, or CDF5.
 bool is_classic_netcdf(std::string_view bytes);
 
-/// Whether they begin as an HDF5 file, as netCDF-4 is one.
-bool is_hdf5(std::string_view bytes);
-
 /// The header of a classic file, `bytes` being the whole of it. Of each variable all values are within the bytes,
 /// behind the header, and no two variables share any. Throws ReadError. Complexity: n log n in the header.
 NetcdfContent read_netcdf_header(const std::filesystem::path& path, std::string_view bytes);

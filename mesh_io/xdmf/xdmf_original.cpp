@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <numeric>
 #include <set>
 #include <span>
@@ -17,8 +18,8 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/xml/xml_names.h"
 #ifdef TRISMOOTH_HAS_HDF5
+#include "trismooth/mesh_io/hdf5/hdf5_changes.h"
 #include "trismooth/mesh_io/hdf5/hdf5_reader.h"
-#include "trismooth/mesh_io/hdf5/hdf5_writer.h"
 #endif
 
 namespace trismooth {
@@ -199,43 +200,52 @@ class XdmfOriginal : public OriginalFile {
         sites.back().offsets[i] = one->item.begin + i * size_of(*one->item.type);
       }
     }
-    write_patched_lists(place, *heavy.bytes, sites, binary, document, workers);
-    write_datasets(file, place, document);
+    const auto changed = changed_datasets(file, place, document);
+    if (changed.empty() || !binary.empty()) {
+      write_patched_lists(place, *heavy.bytes, sites, binary, document, workers);
+    }
+#ifdef TRISMOOTH_HAS_HDF5
+    if (!changed.empty()) {
+      const FileBytes patched = binary.empty() ? FileBytes() : read_file_bytes(place, FileWorkers(workers));
+      write_changed_hdf5(place, binary.empty() ? heavy.bytes->view() : patched.view(), changed);
+    }
+#endif
   }
 
-  /// Where a coordinate has moved: else HDF5 does not so much as open the file.
-  void write_datasets([[maybe_unused]] std::size_t file, [[maybe_unused]] const std::filesystem::path& place,
-                      [[maybe_unused]] const MeshDocument& document) const {
+  /// The datasets of a file whose coordinates have moved, with what they are to hold.
+  std::map<std::string, std::vector<double>> changed_datasets([[maybe_unused]] std::size_t file,
+                                                              [[maybe_unused]] const std::filesystem::path& place,
+                                                              [[maybe_unused]] const MeshDocument& document) const {
+    std::map<std::string, std::vector<double>> changed;
 #ifdef TRISMOOTH_HAS_HDF5
     const std::vector<const XdmfCoordinates*> all = coordinates_at(XdmfItem::Place::hdf5, file);
     if (all.empty()) {
-      return;
+      return changed;
     }
-    const Hdf5Reader reader(source_.files[file].path, source_.files[file].bytes->view());
-    std::vector<std::pair<const XdmfItem*, std::vector<double>>> changed;
-    for (const XdmfCoordinates* const one : all) {
-      std::vector<double> values = reader.read<double>(one->item.dataset);
-      const std::vector<ColumnValues> columns = values_of(*one, document);
-      bool differs = false;
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        const ColumnValues& column = columns[i % columns.size()];
-        const double value = column.first[i / columns.size() * column.stride];
-        differs = differs || value != values[i];
-        values[i] = value == values[i] ? values[i] : value;
+    try {
+      const Hdf5Reader reader(source_.files[file].path, source_.files[file].bytes->view());
+      for (const XdmfCoordinates* const one : all) {
+        std::vector<double> values = reader.read<double>(one->item.dataset);
+        if (values.size() != one->item.count()) {
+          throw ReadError(place, "another number of values");
+        }
+        const std::vector<ColumnValues> columns = values_of(*one, document);
+        bool differs = false;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          const ColumnValues& column = columns[i % columns.size()];
+          const double value = column.first[i / columns.size() * column.stride];
+          differs = differs || value != values[i];
+          values[i] = value == values[i] ? values[i] : value;
+        }
+        if (differs) {
+          changed.insert_or_assign(one->item.dataset, std::move(values));
+        }
       }
-      if (differs) {
-        changed.emplace_back(&one->item, std::move(values));
-      }
+    } catch (const ReadError&) {
+      throw WriteError(place, "the file that was read is damaged: HDF5 has read it once, and not a second time");
     }
-    if (changed.empty()) {
-      return;
-    }
-    Hdf5Writer writer = Hdf5Writer::change(place);
-    for (const auto& [item, values] : changed) {
-      writer.overwrite<double>(item->dataset, values);
-    }
-    writer.close();
 #endif
+    return changed;
   }
 
   XdmfSource source_;

@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "trismooth/mesh_io/hdf5/hdf5_service.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "trismooth/mesh_io/bytes/saturating_product.h"
+#include "trismooth/mesh_io/hdf5/hdf5_handle.h"
+#include "trismooth/mesh_io/hdf5/hdf5_reader.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
+
+namespace trismooth {
+
+namespace {
+
+// HDF5 takes the bytes of a file through these, and copies none: each call gives the one place where they are.
+void* same_bytes(std::size_t, H5FD_file_image_op_t, void* bytes) {
+  return bytes;
+}
+void* copy_nothing(void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) {
+  return to;
+}
+void* never_grow(void*, std::size_t, H5FD_file_image_op_t, void*) {
+  return nullptr;
+}
+herr_t keep_bytes(void*, H5FD_file_image_op_t, void*) {
+  return 0;
+}
+void* same_data(void* data) {
+  return data;
+}
+herr_t keep_data(void*) {
+  return 0;
+}
+
+Hdf5Handle open_bytes(std::string_view bytes) {
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  // Only read: HDF5 asks for memory that could be written to.
+  void* const place = const_cast<char*>(bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+  H5FD_file_image_callbacks_t callbacks{&same_bytes, &copy_nothing, &never_grow, &keep_bytes,
+                                        &same_data,  &keep_data,    place};
+  if (H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false) < 0 ||
+      H5Pset_file_image_callbacks(access.get(), &callbacks) < 0 ||
+      H5Pset_file_image(access.get(), place, bytes.size()) < 0) {
+    return {};
+  }
+  return {H5Fopen("trismooth bytes", H5F_ACC_RDONLY, access.get()), &H5Fclose};
+}
+
+/// One of the ordinary types, in either order of bytes: of others, which damaged files describe, HDF5's conversions
+/// make anything.
+std::optional<ScalarType> number_type(hid_t type) {
+  const std::array types{
+      std::tuple(ScalarType::int8, H5T_STD_I8LE, H5T_STD_I8BE),
+      std::tuple(ScalarType::uint8, H5T_STD_U8LE, H5T_STD_U8BE),
+      std::tuple(ScalarType::int16, H5T_STD_I16LE, H5T_STD_I16BE),
+      std::tuple(ScalarType::uint16, H5T_STD_U16LE, H5T_STD_U16BE),
+      std::tuple(ScalarType::int32, H5T_STD_I32LE, H5T_STD_I32BE),
+      std::tuple(ScalarType::uint32, H5T_STD_U32LE, H5T_STD_U32BE),
+      std::tuple(ScalarType::int64, H5T_STD_I64LE, H5T_STD_I64BE),
+      std::tuple(ScalarType::uint64, H5T_STD_U64LE, H5T_STD_U64BE),
+      std::tuple(ScalarType::float32, H5T_IEEE_F32LE, H5T_IEEE_F32BE),
+      std::tuple(ScalarType::float64, H5T_IEEE_F64LE, H5T_IEEE_F64BE),
+  };
+  for (const auto& [number, little, big] : types) {
+    if (H5Tequal(type, little) > 0 || H5Tequal(type, big) > 0) {
+      return number;
+    }
+  }
+  return std::nullopt;
+}
+
+bool is_real(ScalarType type) {
+  return type == ScalarType::float32 || type == ScalarType::float64;
+}
+
+/// Without the zeros that end it, or the blanks that fill it up.
+std::string trimmed(std::string_view text) {
+  text = text.substr(0, text.find('\0'));
+  while (text.ends_with(' ')) {
+    text.remove_suffix(1);
+  }
+  return std::string(text);
+}
+
+/// Deflate, which compresses most of what files use, makes at most so many bytes of one.
+constexpr std::uint64_t most_bytes_of_one = 1040;
+/// More texts of any length than an attribute has.
+constexpr std::uint64_t most_attribute_texts = 4096;
+
+/// A dataset or an attribute that is open.
+struct Hdf5Source {
+  std::string name;  ///< for messages
+  Hdf5Handle handle;
+  Hdf5Handle type;
+  Hdf5Shape shape;
+  bool is_attribute = false;
+
+  bool read(hid_t memory_type, void* values) const {
+    return (is_attribute ? H5Aread(handle.get(), memory_type, values)
+                         : H5Dread(handle.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values)) >= 0;
+  }
+};
+
+Hdf5Shape shape_in(hid_t type, hid_t space) {
+  Hdf5Shape shape;
+  shape.type = number_type(type);
+  shape.is_text = H5Tget_class(type) == H5T_STRING;
+  if (H5Sget_simple_extent_type(space) == H5S_NULL) {
+    shape.extents = {0};
+    return shape;
+  }
+  const int rank = H5Sget_simple_extent_ndims(space);
+  std::vector<hsize_t> extents(static_cast<std::size_t>(std::max(rank, 0)));
+  H5Sget_simple_extent_dims(space, extents.data(), nullptr);
+  shape.extents.assign(extents.begin(), extents.end());
+  return shape;
+}
+
+Hdf5Kind kind_at(const Hdf5Handle& object) {
+  const H5I_type_t type = object.is_valid() ? H5Iget_type(object.get()) : H5I_BADID;
+  return type == H5I_GROUP ? Hdf5Kind::group : type == H5I_DATASET ? Hdf5Kind::dataset : Hdf5Kind::other;
+}
+
+class Hdf5Service {
+ public:
+  explicit Hdf5Service(std::string_view bytes) : bytes_(bytes) {
+    if (!bytes.empty()) {
+      handle_ = open_bytes(bytes);
+    }
+    if (!handle_.is_valid()) {
+      throw Hdf5Refusal("is no whole HDF5 file" + hdf5_reason());
+    }
+  }
+
+  std::string answer(Hdf5MessageReader request) const;
+
+ private:
+  [[noreturn]] static void fail(const std::string& object, const std::string& message) {
+    throw Hdf5Refusal(quoted(std::string_view(object)) + " " + message);
+  }
+
+  Hdf5Handle open(const std::string& object) const {
+    Hdf5Handle at(H5Gopen2(handle_.get(), "/", H5P_DEFAULT), &H5Gclose);
+    for (std::size_t begin = 0; begin < object.size() && at.is_valid();) {
+      const std::size_t end = std::min(object.find('/', begin), object.size());
+      const std::string name = object.substr(begin, end - begin);
+      begin = end + 1;
+      if (name.empty()) {
+        continue;
+      }
+      H5L_info_t link;
+      if (H5Iget_type(at.get()) != H5I_GROUP || H5Lexists(at.get(), name.c_str(), H5P_DEFAULT) <= 0 ||
+          H5Lget_info(at.get(), name.c_str(), &link, H5P_DEFAULT) < 0) {
+        return {};
+      }
+      if (link.type != H5L_TYPE_HARD) {
+        fail(object, "leads through " + quoted(std::string_view(name)) +
+                         ", a link, which is not followed: 'h5repack' or a copy makes one file without links of it");
+      }
+      at = Hdf5Handle(H5Oopen(at.get(), name.c_str(), H5P_DEFAULT), &H5Oclose);
+    }
+    return at;
+  }
+
+  std::vector<Hdf5Member> members(const std::string& group) const {
+    const Hdf5Handle at = open(group);
+    if (!at.is_valid() || H5Iget_type(at.get()) != H5I_GROUP) {
+      fail(group, "is no group of the file");
+    }
+    const Hdf5Handle properties(H5Gget_create_plist(at.get()), &H5Pclose);
+    unsigned order = 0;
+    H5Pget_link_creation_order(properties.get(), &order);
+    std::vector<Hdf5Member> found;
+    const auto add = [](hid_t, const char* name, const H5L_info_t* link, void* data) -> herr_t {
+      try {
+        static_cast<std::vector<Hdf5Member>*>(data)->push_back(
+            {name, link->type == H5L_TYPE_HARD ? Hdf5Kind::other : Hdf5Kind::link});
+        return 0;
+      } catch (const std::bad_alloc&) {
+        return -1;
+      }
+    };
+    if (H5Literate(at.get(), (order & H5P_CRT_ORDER_INDEXED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC,
+                   nullptr, add, &found) < 0) {
+      fail(group, "cannot be listed" + hdf5_reason());
+    }
+    for (Hdf5Member& member : found) {
+      if (member.kind != Hdf5Kind::link) {
+        const Hdf5Handle object(H5Oopen(at.get(), member.name.c_str(), H5P_DEFAULT), &H5Oclose);
+        member.kind = kind_at(object);
+      }
+    }
+    return found;
+  }
+
+  Hdf5Source open_dataset(const std::string& dataset) const {
+    Hdf5Source source{dataset, open(dataset), {}, {}, false};
+    if (!source.handle.is_valid() || H5Iget_type(source.handle.get()) != H5I_DATASET) {
+      fail(dataset, "is no dataset of the file");
+    }
+    source.type = Hdf5Handle(H5Dget_type(source.handle.get()), &H5Tclose);
+    const Hdf5Handle space(H5Dget_space(source.handle.get()), &H5Sclose);
+    if (!source.type.is_valid() || !space.is_valid()) {
+      fail(dataset, "cannot be read" + hdf5_reason());
+    }
+    source.shape = shape_in(source.type.get(), space.get());
+    return source;
+  }
+
+  Hdf5Source open_attribute(const std::string& object, const std::string& name) const {
+    const Hdf5Handle at = open(object);
+    Hdf5Source source{object + ":" + name, {}, {}, {}, true};
+    if (at.is_valid() && H5Aexists(at.get(), name.c_str()) > 0) {
+      source.handle = Hdf5Handle(H5Aopen(at.get(), name.c_str(), H5P_DEFAULT), &H5Aclose);
+    }
+    if (!source.handle.is_valid()) {
+      fail(source.name, "is no attribute of the file");
+    }
+    source.type = Hdf5Handle(H5Aget_type(source.handle.get()), &H5Tclose);
+    const Hdf5Handle space(H5Aget_space(source.handle.get()), &H5Sclose);
+    if (!source.type.is_valid() || !space.is_valid()) {
+      fail(source.name, "cannot be read" + hdf5_reason());
+    }
+    source.shape = shape_in(source.type.get(), space.get());
+    return source;
+  }
+
+  void require_numbers(const Hdf5Source& source, ScalarType type) const {
+    if (!source.shape.type) {
+      fail(source.name, "holds no numbers of a type that is read");
+    }
+    if (is_real(*source.shape.type) && !is_real(type)) {
+      fail(source.name, "holds " + std::string(to_string(*source.shape.type)) + ", where whole numbers are expected");
+    }
+    require_bytes(source);
+  }
+
+  void require_bytes(const Hdf5Source& source) const {
+    const std::uint64_t wanted = saturating_product(source.shape.count(), H5Tget_size(source.type.get()));
+    if (source.is_attribute) {
+      if (wanted > bytes_.size()) {
+        fail(source.name, "declares more than the file holds");
+      }
+      return;
+    }
+    const Hdf5Handle properties(H5Dget_create_plist(source.handle.get()), &H5Pclose);
+    const H5D_layout_t layout = H5Pget_layout(properties.get());
+    if (layout == H5D_VIRTUAL || H5Pget_external_count(properties.get()) > 0) {
+      fail(source.name, "is kept in other files, which are not read: 'h5repack' makes one file of them");
+    }
+    const std::uint64_t stored = std::min<std::uint64_t>(H5Dget_storage_size(source.handle.get()), bytes_.size());
+    const bool is_filtered = layout == H5D_CHUNKED && H5Pget_nfilters(properties.get()) > 0;
+    const std::uint64_t most = is_filtered ? saturating_product(most_bytes_of_one, stored) : stored;
+    // A chunk at the edge is as large as all others, and taken to memory as a whole.
+    std::uint64_t chunk = 0;
+    if (layout == H5D_CHUNKED) {
+      std::vector<hsize_t> extents(source.shape.extents.size());
+      H5Pget_chunk(properties.get(), static_cast<int>(extents.size()), extents.data());
+      chunk = H5Tget_size(source.type.get());
+      for (const hsize_t extent : extents) {
+        chunk = saturating_product(chunk, extent);
+      }
+    }
+    if (wanted > 0 && std::max(wanted, chunk) > most) {
+      fail(source.name, "declares " + std::to_string(source.shape.count()) + " values, more than the " +
+                            std::to_string(stored) + " bytes that the file has of them can hold");
+    }
+  }
+
+  std::vector<std::string> read_texts_of(const Hdf5Source& source) const {
+    if (!source.shape.is_text) {
+      fail(source.name, "holds no texts");
+    }
+    require_bytes(source);
+    const auto count = static_cast<std::size_t>(source.shape.count());
+    std::vector<std::string> texts(count);
+    if (count == 0) {
+      return texts;
+    }
+    if (H5Tis_variable_str(source.type.get()) <= 0) {
+      const std::size_t size = H5Tget_size(source.type.get());
+      std::string all(count * size, '\0');
+      if (!source.read(source.type.get(), all.data())) {
+        fail(source.name, "cannot be read" + hdf5_reason());
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        texts[i] = trimmed(std::string_view(all).substr(i * size, size));
+      }
+      return texts;
+    }
+    // Texts of any length lie in one heap, and many may be the same one.
+    const Hdf5Handle space(source.is_attribute ? H5Aget_space(source.handle.get()) : H5Dget_space(source.handle.get()),
+                           &H5Sclose);
+    hsize_t wanted = 0;
+    if (source.is_attribute ? count > most_attribute_texts
+                            : H5Dvlen_get_buf_size(source.handle.get(), source.type.get(), space.get(), &wanted) < 0 ||
+                                  wanted > saturating_product(16, bytes_.size())) {
+      fail(source.name, "declares more text than the file holds");
+    }
+    std::vector<char*> read(count, nullptr);
+    if (!source.read(source.type.get(), static_cast<void*>(read.data()))) {
+      fail(source.name, "cannot be read" + hdf5_reason());
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      texts[i] = read[i] == nullptr ? std::string() : trimmed(read[i]);
+    }
+    H5Dvlen_reclaim(source.type.get(), space.get(), H5P_DEFAULT, static_cast<void*>(read.data()));
+    return texts;
+  }
+
+  std::vector<std::string> attribute_names(const std::string& object) const {
+    const Hdf5Handle at = open(object);
+    std::vector<std::string> names;
+    const auto add = [](hid_t, const char* name, const H5A_info_t*, void* data) -> herr_t {
+      try {
+        static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+        return 0;
+      } catch (const std::bad_alloc&) {
+        return -1;
+      }
+    };
+    if (!at.is_valid() || H5Aiterate2(at.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names) < 0) {
+      fail(object, "has no attributes that can be listed");
+    }
+    return names;
+  }
+
+  Hdf5Source open_source(const std::string& object, const std::optional<std::string>& attribute) const {
+    return attribute ? open_attribute(object, *attribute) : open_dataset(object);
+  }
+  std::string describe(const Hdf5Source& source) const;
+  std::string read_numbers(const Hdf5Source& source, ScalarType type) const;
+  std::string read_bytes(const Hdf5Source& source) const;
+
+  std::string_view bytes_;
+  Hdf5Handle handle_;
+};
+
+/// Where the values of a dataset stand one after the other in the file, nobody else need unpack them.
+std::uint64_t place_of(const Hdf5Source& source) {
+  if (source.is_attribute || !source.shape.type) {
+    return nowhere;
+  }
+  const Hdf5Handle properties(H5Dget_create_plist(source.handle.get()), &H5Pclose);
+  const std::uint64_t size = saturating_product(source.shape.count(), size_of(*source.shape.type));
+  const bool is_there = H5Pget_layout(properties.get()) == H5D_CONTIGUOUS &&
+                        H5Pget_external_count(properties.get()) == 0 &&
+                        H5Dget_storage_size(source.handle.get()) >= size;
+  const haddr_t place = is_there ? H5Dget_offset(source.handle.get()) : HADDR_UNDEF;
+  return place == HADDR_UNDEF ? nowhere : place;
+}
+
+std::string Hdf5Service::describe(const Hdf5Source& source) const {
+  Hdf5MessageWriter message;
+  message.number(source.shape.extents.size());
+  for (const std::uint64_t extent : source.shape.extents) {
+    message.number(extent);
+  }
+  const bool is_number = source.shape.type.has_value();
+  const bool is_big = is_number && H5Tget_order(source.type.get()) == H5T_ORDER_BE;
+  return message.number(is_number ? static_cast<std::uint64_t>(*source.shape.type) + 1 : 0)
+      .number(source.shape.is_text ? 1 : 0)
+      .number(H5Tget_size(source.type.get()))
+      .number(place_of(source))
+      .number(is_big ? 1 : 0)
+      .take();
+}
+
+std::string Hdf5Service::read_numbers(const Hdf5Source& source, ScalarType type) const {
+  require_numbers(source, type);
+  std::string values(static_cast<std::size_t>(source.shape.count()) * size_of(type), '\0');
+  if (!values.empty() && !source.read(hdf5_memory_type(type), values.data())) {
+    fail(source.name, "cannot be read" + hdf5_reason());
+  }
+  return values;
+}
+
+std::string Hdf5Service::read_bytes(const Hdf5Source& source) const {
+  // Of others memory holds addresses.
+  if (H5Tdetect_class(source.type.get(), H5T_VLEN) != 0 || H5Tdetect_class(source.type.get(), H5T_REFERENCE) != 0 ||
+      (source.shape.is_text && H5Tis_variable_str(source.type.get()) != 0)) {
+    fail(source.name, "holds values of a type that is not read");
+  }
+  require_bytes(source);
+  std::string bytes(static_cast<std::size_t>(source.shape.count()) * H5Tget_size(source.type.get()), '\0');
+  if (!bytes.empty() && !source.read(source.type.get(), bytes.data())) {
+    fail(source.name, "cannot be read" + hdf5_reason());
+  }
+  return bytes;
+}
+
+std::string list_of(const std::vector<std::string>& texts) {
+  Hdf5MessageWriter message;
+  message.number(texts.size());
+  for (const std::string& text : texts) {
+    message.text(text);
+  }
+  return message.take();
+}
+
+std::string Hdf5Service::answer(Hdf5MessageReader request) const {
+  const auto kind = static_cast<Hdf5Request>(request.number());
+  const auto type = static_cast<ScalarType>(request.number());
+  const std::string object = request.text();
+  const std::optional<std::string> attribute = request.number() != 0 ? std::optional(request.text()) : std::nullopt;
+  switch (kind) {
+    case Hdf5Request::members: {
+      const std::vector<Hdf5Member> found = members(object);
+      Hdf5MessageWriter message;
+      message.number(found.size());
+      for (const Hdf5Member& member : found) {
+        message.text(member.name).number(static_cast<std::uint64_t>(member.kind));
+      }
+      return message.take();
+    }
+    case Hdf5Request::kind: {
+      const Hdf5Handle at = open(object);
+      return Hdf5MessageWriter().number(at.is_valid() ? static_cast<std::uint64_t>(kind_at(at)) + 1 : 0).take();
+    }
+    case Hdf5Request::description:
+      return describe(open_source(object, attribute));
+    case Hdf5Request::numbers:
+      return read_numbers(open_source(object, attribute), type);
+    case Hdf5Request::bytes:
+      return read_bytes(open_dataset(object));
+    case Hdf5Request::texts:
+      return list_of(read_texts_of(open_source(object, attribute)));
+    case Hdf5Request::attribute_names:
+      return list_of(attribute_names(object));
+    case Hdf5Request::has_attribute:
+      break;
+  }
+  const Hdf5Handle at = open(object);
+  return Hdf5MessageWriter().number(at.is_valid() && H5Aexists(at.get(), attribute.value().c_str()) > 0 ? 1 : 0).take();
+}
+
+}  // namespace
+
+void serve_hdf5(std::string_view bytes, Hdf5Channel& channel) {
+  try {
+    const Hdf5Service service(bytes);
+    channel.answer({});
+    while (const std::optional<std::string> request = channel.next()) {
+      try {
+        channel.answer(service.answer(Hdf5MessageReader(*request)));
+      } catch (const Hdf5Refusal& refusal) {
+        channel.refuse(refusal.what());
+      } catch (const std::bad_alloc&) {
+        channel.refuse("more memory is needed than there is");
+      }
+    }
+  } catch (const Hdf5Refusal& refusal) {
+    channel.refuse(refusal.what());
+  }
+}
+
+}  // namespace trismooth
