@@ -5,8 +5,7 @@
 #   scripts/fuzz.sh [--seconds N | --seconds-of-all N] [--no-build] [TARGET...]
 #
 # Runs each target for N seconds (default 600), or all of them for N seconds of one processor; as many at a time as there
-# are processors. Targets are the formats, by the names that --format takes, and flat_arrays; without arguments all but
-# those that HDF5 keeps.
+# are processors. Targets are the formats, by the names that --format takes, and flat_arrays; without arguments all.
 # What has been found worth keeping stays in build/fuzz/TARGET/corpus, where the next run goes on from. Exit status 1
 # where an input was found that breaks a promise.
 set -euo pipefail
@@ -52,13 +51,7 @@ if $builds; then
 fi
 mapfile -t all_targets < <("$programs/fuzz_seeds" "$work/seeds")
 if ((${#targets[@]} == 0)); then
-  # HDF5 itself reads beyond its memory in some damaged files (see SECURITY.md): its formats are fuzzed where they are named.
-  for target in "${all_targets[@]}"; do
-    case $target in
-      med | cgns) ;;
-      *) targets+=("$target") ;;
-    esac
-  done
+  targets=("${all_targets[@]}")
 fi
 if [[ -n $seconds_of_all ]]; then
   seconds=$((seconds_of_all / ${#targets[@]}))
@@ -80,15 +73,7 @@ fuzz() {
   if [[ -f $data/dictionaries/$dictionary.dict ]]; then
     options+=(-dict="$data/dictionaries/$dictionary.dict")
   fi
-  local asan=$ASAN_OPTIONS
-  case $target in
-    # HDF5 asks for as much as a damaged file says. Where it does not get it, or no bytes to fill it with, it says so.
-    med | cgns)
-      options+=(-malloc_limit_mb=4194304)
-      asan+=:allocator_may_return_null=1
-      ;;
-  esac
-  ASAN_OPTIONS=$asan "$programs/fuzz" "--target=$target" "${options[@]}" "${folders[@]}" >"$work/$target/log" 2>&1 || touch "$work/$target/failed"
+  "$programs/fuzz" "--target=$target" "${options[@]}" "${folders[@]}" >"$work/$target/log" 2>&1 || touch "$work/$target/failed"
 }
 
 # The last value behind a label of libFuzzer's log.

@@ -17,7 +17,6 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/hdf5/hdf5_child.h"
 #include "trismooth/mesh_io/hdf5/hdf5_handle.h"
-#include "trismooth/mesh_io/hdf5/hdf5_reader.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -123,14 +122,17 @@ bool patch(MemoryBlock& bytes, const Hdf5Reader& reader, const std::string& data
 
 }  // namespace
 
-void write_changed_hdf5(const std::filesystem::path& file, std::string_view bytes, const Hdf5Values& values) {
+void write_changed_hdf5(const std::filesystem::path& file, const Hdf5Reader& reader, std::string_view bytes,
+                        const Hdf5Values& values) {
   MemoryBlock patched;
-  patched.append(bytes.data(), bytes.size());
-  Hdf5Values others;
   std::string by_library;
-  std::string_view changed(reinterpret_cast<const char*>(patched.data()), patched.size());
+  std::string_view changed = bytes;
+  if (!values.empty()) {
+    patched.append(bytes.data(), bytes.size());
+    changed = {reinterpret_cast<const char*>(patched.data()), patched.size()};
+  }
   try {
-    const Hdf5Reader reader(file, bytes);
+    Hdf5Values others;
     std::size_t numbers = 0;
     for (const auto& [dataset, of_dataset] : values) {
       if (!patch(patched, reader, dataset, of_dataset)) {
@@ -145,8 +147,6 @@ void write_changed_hdf5(const std::filesystem::path& file, std::string_view byte
       by_library = child.answer(saturating_product(4, bytes.size() + sizeof(double) * numbers) + (1U << 20));
       changed = by_library;
     }
-  } catch (const ReadError& error) {
-    throw WriteError(file, std::string(error.what()).substr(file.string().size() + 2));
   } catch (const std::runtime_error& error) {
     throw WriteError(file, error.what());
   }

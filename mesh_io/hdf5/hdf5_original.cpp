@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
-#include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/hdf5/hdf5_changes.h"
@@ -35,11 +35,12 @@ class Hdf5Original : public OriginalFile {
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
              Workers& /*workers*/) const override {
     require_same_points(path, document, points_, "nodes", added_point_arrays, added_cell_arrays);
+    std::optional<Hdf5Reader> reader;
     Hdf5Values changed;
     try {
-      const Hdf5Reader reader(path, bytes_);
+      reader.emplace(path, bytes_);
       for (const auto& [dataset, columns] : columns_) {
-        std::vector<double> values = reader.read<double>(dataset);
+        std::vector<double> values = reader->read<double>(dataset);
         for (const Hdf5Column& column : columns) {
           if (column.count > 0 && column.begin + (column.count - 1) * column.step >= values.size()) {
             throw ReadError(path, "another number of values");
@@ -52,13 +53,7 @@ class Hdf5Original : public OriginalFile {
     } catch (const ReadError&) {
       throw WriteError(path, "the file that was read is damaged: HDF5 has read it once, and not a second time");
     }
-    if (changed.empty()) {
-      BufferedWriter writer(path);
-      writer.write(bytes_.view());
-      writer.close();
-    } else {
-      write_changed_hdf5(path, bytes_, changed);
-    }
+    write_changed_hdf5(path, *reader, bytes_, changed);
   }
 
   bool keeps_values_of(std::string_view point_array) const override {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -200,32 +200,28 @@ class XdmfOriginal : public OriginalFile {
         sites.back().offsets[i] = one->item.begin + i * size_of(*one->item.type);
       }
     }
-    const auto changed = changed_datasets(file, place, document);
-    if (changed.empty() || !binary.empty()) {
+    const std::vector<const XdmfCoordinates*> datasets = coordinates_at(XdmfItem::Place::hdf5, file);
+    if (datasets.empty() || !binary.empty()) {
       write_patched_lists(place, *heavy.bytes, sites, binary, document, workers);
     }
 #ifdef TRISMOOTH_HAS_HDF5
-    if (!changed.empty()) {
+    if (!datasets.empty()) {
+      // An HDF5 file of which some numbers are named by their bytes has these by now.
       const FileBytes patched = binary.empty() ? FileBytes() : read_file_bytes(place, FileWorkers(workers));
-      write_changed_hdf5(place, binary.empty() ? heavy.bytes->view() : patched.view(), changed);
+      write_datasets(place, binary.empty() ? heavy.bytes->view() : patched.view(), datasets, document);
     }
 #endif
   }
 
-  /// The datasets of a file whose coordinates have moved, with what they are to hold.
-  std::map<std::string, std::vector<double>> changed_datasets([[maybe_unused]] std::size_t file,
-                                                              [[maybe_unused]] const std::filesystem::path& place,
-                                                              [[maybe_unused]] const MeshDocument& document) const {
-    std::map<std::string, std::vector<double>> changed;
 #ifdef TRISMOOTH_HAS_HDF5
-    const std::vector<const XdmfCoordinates*> all = coordinates_at(XdmfItem::Place::hdf5, file);
-    if (all.empty()) {
-      return changed;
-    }
+  static void write_datasets(const std::filesystem::path& place, std::string_view bytes,
+                             std::span<const XdmfCoordinates* const> datasets, const MeshDocument& document) {
+    std::optional<Hdf5Reader> reader;
+    Hdf5Values changed;
     try {
-      const Hdf5Reader reader(source_.files[file].path, source_.files[file].bytes->view());
-      for (const XdmfCoordinates* const one : all) {
-        std::vector<double> values = reader.read<double>(one->item.dataset);
+      reader.emplace(place, bytes);
+      for (const XdmfCoordinates* const one : datasets) {
+        std::vector<double> values = reader->read<double>(one->item.dataset);
         if (values.size() != one->item.count()) {
           throw ReadError(place, "another number of values");
         }
@@ -244,9 +240,9 @@ class XdmfOriginal : public OriginalFile {
     } catch (const ReadError&) {
       throw WriteError(place, "the file that was read is damaged: HDF5 has read it once, and not a second time");
     }
-#endif
-    return changed;
+    write_changed_hdf5(place, *reader, bytes, changed);
   }
+#endif
 
   XdmfSource source_;
   std::vector<char> has_coordinates_;  ///< of each file

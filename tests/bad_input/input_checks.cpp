@@ -93,7 +93,8 @@ bool is_kept_by_hdf5(const accepted_files::AcceptedFile& file) {
 
 std::size_t stride_of(const accepted_files::AcceptedFile& file) {
   if (is_kept_by_hdf5(file)) {
-    return is_sanitized ? 401 : per_cent_of_cases() >= 100 ? 17 : 61;
+    // Each file that is read takes a process.
+    return is_sanitized ? 401 : per_cent_of_cases() >= 100 ? 37 : 131;
   }
   if (!is_sanitized && per_cent_of_cases() >= 100) {
     return 1;
