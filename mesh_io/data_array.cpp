@@ -4,23 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <type_traits>
+
+#include "trismooth/mesh_io/scalar_type_of.h"
 
 namespace trismooth {
-
-namespace {
-
-template <class T>
-constexpr ScalarType scalar_type_of() {
-  if constexpr (std::is_floating_point_v<T>) {
-    return sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64;
-  } else {
-    constexpr int width = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
-    return static_cast<ScalarType>(2 * width + (std::is_unsigned_v<T> ? 1 : 0));
-  }
-}
-
-}  // namespace
 
 std::size_t size_of(ScalarType type) {
   return visit_scalar_type(type, [](auto zero) { return sizeof(zero); });

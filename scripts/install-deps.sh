@@ -14,7 +14,6 @@ packages=(
   g++ cmake ninja-build pkg-config python3
   libvtk9-dev libopenmesh-dev libeigen3-dev libtbb-dev
   libfmt-dev libcli11-dev nlohmann-json3-dev libexpat1-dev libhdf5-dev libxxhash-dev libpng-dev zlib1g-dev
-  libnetcdf-dev
   libopenmpi-dev openmpi-bin libmetis-dev
   catch2
 )

@@ -41,6 +41,7 @@ class ExodusReader {
     add_exodus_sets(file_, blocks, axes_, document_);
     read_variables(blocks);
     add_note_of_others();
+    add_note_of_incomplete(file_, document_);
     document_.original = make_netcdf_original(file_, std::move(bytes), std::move(sites_));
     return std::move(document_);
   }

@@ -3,13 +3,13 @@
 
 #include <mutex>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include <hdf5.h>
 
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/hdf5/hdf5_mutex.h"
+#include "trismooth/mesh_io/scalar_type_of.h"
 
 namespace trismooth {
 
@@ -63,25 +63,5 @@ std::string hdf5_reason();
 
 /// HDF5's type of numbers in memory.
 hid_t hdf5_memory_type(ScalarType type);
-
-/// The ScalarType of the C++ type.
-template <class T>
-constexpr ScalarType scalar_type_of() {
-  if constexpr (std::is_floating_point_v<T>) {
-    return sizeof(T) == 4 ? ScalarType::float32 : ScalarType::float64;
-  } else {
-    constexpr bool is_signed = std::is_signed_v<T>;
-    switch (sizeof(T)) {
-      case 1:
-        return is_signed ? ScalarType::int8 : ScalarType::uint8;
-      case 2:
-        return is_signed ? ScalarType::int16 : ScalarType::uint16;
-      case 4:
-        return is_signed ? ScalarType::int32 : ScalarType::uint32;
-      default:
-        return is_signed ? ScalarType::int64 : ScalarType::uint64;
-    }
-  }
-}
 
 }  // namespace trismooth

@@ -16,10 +16,14 @@ enum class Hdf5Request : std::uint8_t {
   kind,         ///< one more than the Hdf5Kind, 0 for nothing
   description,  ///< rank, extents, one more than the ScalarType or 0, is text, bytes of a value, place, is big endian
   numbers,      ///< the numbers in memory, of the type that is asked for
+  part,         ///< of a part of them, whose first places and counts by dimension the request has
   bytes,        ///< the values as they are
+  characters,   ///< the values, of one character each
   texts,        ///< a count and the texts
   attribute_names,  ///< a count and the names
   has_attribute,    ///< 1 or 0
+  references,       ///< a count, and what each list of references has first, or 0
+  reference,        ///< what refers to the object
 };
 
 /// In a description: the values stand nowhere in the file as they are.

@@ -5,7 +5,7 @@
 
 namespace trismooth {
 
-/// One for the whole process: the HDF5 library, and what calls it (netCDF), may be built for one thread at a time.
+/// One for the whole process: the HDF5 library may be built for one thread at a time.
 inline std::recursive_mutex& hdf5_mutex() {
   static std::recursive_mutex mutex;
   return mutex;

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -20,6 +24,16 @@ namespace {
 /// What is no number stays so; a zero's sign counts.
 bool differs(double stored, double value) {
   return !(std::isnan(stored) && std::isnan(value)) && (stored != value || std::signbit(stored) != std::signbit(value));
+}
+
+/// Those that were never written, in a file of few steps or points, as the file has them.
+std::vector<double> all_values(const Hdf5Reader& reader, const std::string& dataset) {
+  const std::vector<std::uint64_t> extents = reader.shape_of(dataset).extents;
+  const std::vector<std::size_t> begin(extents.size());
+  const std::vector<std::size_t> counts(extents.begin(), extents.end());
+  std::vector<double> values(std::accumulate(counts.begin(), counts.end(), std::size_t{1}, std::multiplies<>()));
+  reader.read_part(dataset, begin, counts, ScalarType::float64, values.data());
+  return values;
 }
 
 class Hdf5Original : public OriginalFile {
@@ -40,7 +54,7 @@ class Hdf5Original : public OriginalFile {
     try {
       reader.emplace(path, bytes_);
       for (const auto& [dataset, columns] : columns_) {
-        std::vector<double> values = reader->read<double>(dataset);
+        std::vector<double> values = all_values(*reader, dataset);
         for (const Hdf5Column& column : columns) {
           if (column.count > 0 && column.begin + (column.count - 1) * column.step >= values.size()) {
             throw ReadError(path, "another number of values");

@@ -44,13 +44,12 @@ T converted(S value) {
 
 /// Fills `values` from as many numbers that begin at `from`. False where they are of a type that is not taken so.
 template <class T>
-bool take_numbers(const char* from, ScalarType type, bool is_swapped, std::size_t count, std::vector<T>& values) {
+bool take_numbers(const char* from, ScalarType type, bool is_swapped, std::size_t count, T* values) {
   return visit_scalar_type(type, [&](auto number) {
     using S = decltype(number);
     if constexpr (is_converted<T, S>) {
-      values.resize(count);
       if (std::is_same_v<T, S> && !is_swapped) {
-        std::memcpy(values.data(), from, count * sizeof(S));
+        std::memcpy(values, from, count * sizeof(S));
         return true;
       }
       for (std::size_t i = 0; i < count; ++i) {
@@ -62,6 +61,27 @@ bool take_numbers(const char* from, ScalarType type, bool is_swapped, std::size_
       return false;
     }
   });
+}
+
+bool is_swapped(const Hdf5Place& place) {
+  return place.is_big_endian == (std::endian::native == std::endian::little);
+}
+
+/// The place of a part's first value among all values, where its values follow each other.
+std::optional<std::size_t> begin_of_run(std::span<const std::uint64_t> extents, std::span<const std::size_t> begin,
+                                        std::span<const std::size_t> counts) {
+  std::size_t first = 0;
+  std::size_t stride = 1;
+  bool is_whole = true;  // as far as the last dimensions go
+  for (std::size_t i = extents.size(); i-- > 0;) {
+    if (!is_whole && counts[i] != 1) {
+      return std::nullopt;
+    }
+    is_whole = is_whole && counts[i] == extents[i];
+    first += begin[i] * stride;
+    stride *= static_cast<std::size_t>(extents[i]);
+  }
+  return first;
 }
 
 }  // namespace
@@ -95,10 +115,14 @@ void Hdf5Reader::fail(const Name& name, const std::string& message) const {
 }
 
 template <class Receive>
-auto Hdf5Reader::ask(Hdf5Request request, ScalarType type, const Name& name, const Receive& receive) const {
+auto Hdf5Reader::ask(Hdf5Request request, ScalarType type, const Name& name, const Receive& receive,
+                     std::span<const std::size_t> more) const {
   Hdf5MessageWriter message;
   message.number(static_cast<std::uint64_t>(request)).number(static_cast<std::uint64_t>(type)).text(name.first);
   message.number(name.second ? 1 : 0).text(name.second.value_or(std::string()));
+  for (const std::size_t number : more) {
+    message.number(number);
+  }
   try {
     child_->ask(message.take());
     return receive(*child_);
@@ -180,11 +204,12 @@ std::vector<T> Hdf5Reader::read_numbers(const Name& name) const {
   const Description& description = describe(name);
   const std::uint64_t count = description.shape.count();
   std::vector<T> values;
-  if (description.place &&
-      take_numbers(bytes_.data() + description.place->begin, *description.shape.type,
-                   description.place->is_big_endian == (std::endian::native == std::endian::little),
-                   static_cast<std::size_t>(count), values)) {
-    return values;
+  if (description.place) {
+    values.resize(static_cast<std::size_t>(count));
+    if (take_numbers(bytes_.data() + description.place->begin, *description.shape.type, is_swapped(*description.place),
+                     values.size(), values.data())) {
+      return values;
+    }
   }
   return ask(Hdf5Request::numbers, scalar_type_of<T>(), name, [&](Hdf5Child& child) {
     const std::uint64_t size = child.answer_size();
@@ -210,17 +235,63 @@ DataArray Hdf5Reader::read_array(const std::string& dataset, std::string name, s
   });
 }
 
-std::string Hdf5Reader::read_bytes(const std::string& dataset) const {
+void Hdf5Reader::read_part(const std::string& dataset, std::span<const std::size_t> begin,
+                           std::span<const std::size_t> counts, ScalarType type, void* values) const {
   const std::lock_guard lock(mutex_);
   const Name name{dataset, {}};
   const Description& description = describe(name);
-  return ask(Hdf5Request::bytes, ScalarType::float64, name, [&](Hdf5Child& child) {
-    std::string bytes = child.answer(most_);
-    if (bytes.size() != saturating_product(description.shape.count(), description.value_size)) {
+  const std::vector<std::uint64_t>& extents = description.shape.extents;
+  bool is_within = begin.size() == extents.size() && counts.size() == extents.size();
+  std::uint64_t wanted = 1;
+  for (std::size_t i = 0; i < extents.size() && is_within; ++i) {
+    is_within = begin[i] <= extents[i] && counts[i] <= extents[i] - begin[i];
+    wanted = saturating_product(wanted, counts[i]);
+  }
+  if (!is_within) {
+    fail(name, "has not as many values as expected");
+  }
+  const std::optional<std::size_t> first =
+      description.place && wanted > 0 ? begin_of_run(extents, begin, counts) : std::nullopt;
+  if (first && visit_scalar_type(type, [&](auto number) {
+        return take_numbers(bytes_.data() + description.place->begin + *first * size_of(*description.shape.type),
+                            *description.shape.type, is_swapped(*description.place), static_cast<std::size_t>(wanted),
+                            static_cast<decltype(number)*>(values));
+      })) {
+    return;
+  }
+  std::vector<std::size_t> part(begin.begin(), begin.end());
+  part.insert(part.end(), counts.begin(), counts.end());
+  ask(
+      Hdf5Request::part, type, name,
+      [&](Hdf5Child& child) {
+        const std::uint64_t size = child.answer_size();
+        if (size != saturating_product(wanted, size_of(type))) {
+          child.lose();
+        }
+        child.receive(values, static_cast<std::size_t>(size));
+      },
+      part);
+}
+
+std::string Hdf5Reader::read_values(Hdf5Request request, const Name& name) const {
+  const Description& description = describe(name);
+  return ask(request, ScalarType::float64, name, [&](Hdf5Child& child) {
+    std::string values = child.answer(most_);
+    if (values.size() != saturating_product(description.shape.count(), description.value_size)) {
       child.lose();
     }
-    return bytes;
+    return values;
   });
+}
+
+std::string Hdf5Reader::read_bytes(const std::string& dataset) const {
+  const std::lock_guard lock(mutex_);
+  return read_values(Hdf5Request::bytes, {dataset, {}});
+}
+
+std::string Hdf5Reader::read_characters(const std::string& dataset) const {
+  const std::lock_guard lock(mutex_);
+  return read_values(Hdf5Request::characters, {dataset, {}});
 }
 
 std::vector<std::string> Hdf5Reader::read_list(Hdf5Request request, const Name& name) const {
@@ -272,6 +343,23 @@ std::vector<T> Hdf5Reader::read_attribute(const std::string& object, const std::
 std::vector<std::string> Hdf5Reader::read_attribute_texts(const std::string& object, const std::string& name) const {
   const std::lock_guard lock(mutex_);
   return read_texts(Name{object, name});
+}
+
+std::vector<std::uint64_t> Hdf5Reader::read_attribute_references(const std::string& object,
+                                                                 const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return ask(Hdf5Request::references, {object, name}, [](Hdf5MessageReader& message) {
+    std::vector<std::uint64_t> references(static_cast<std::size_t>(message.number(most_dimensions)));
+    for (std::uint64_t& reference : references) {
+      reference = message.number();
+    }
+    return references;
+  });
+}
+
+std::uint64_t Hdf5Reader::reference_to(const std::string& object) const {
+  const std::lock_guard lock(mutex_);
+  return ask(Hdf5Request::reference, {object, {}}, [](Hdf5MessageReader& message) { return message.number(); });
 }
 
 #define TRISMOOTH_HDF5_READ(T)                                                \

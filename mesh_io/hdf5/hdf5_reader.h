@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -78,8 +79,15 @@ class Hdf5Reader {
   /// All numbers of a dataset in their own type, under the name and with the components that are given; these divide
   /// their number.
   DataArray read_array(const std::string& dataset, std::string name, std::size_t components) const;
+  /// Reads numbers of a part of a dataset, row by row, as numbers of `type` into `values`, which has room for them:
+  /// `begin` and `counts` have a number for each extent. As read(), but values that were never written are what the
+  /// file has in their place: whoever calls it has summed up what all datasets declare.
+  void read_part(const std::string& dataset, std::span<const std::size_t> begin, std::span<const std::size_t> counts,
+                 ScalarType type, void* values) const;
   /// All values of a dataset as they are in the file, of any type whose values have one size: lists of characters, say.
   std::string read_bytes(const std::string& dataset) const;
+  /// All values of a dataset of single characters, never written ones as in read_part().
+  std::string read_characters(const std::string& dataset) const;
   /// All texts of a dataset, without the zeros and blanks that fill them up.
   std::vector<std::string> read_texts(const std::string& dataset) const;
 
@@ -90,6 +98,10 @@ class Hdf5Reader {
   template <class T>
   std::vector<T> read_attribute(const std::string& object, const std::string& name) const;
   std::vector<std::string> read_attribute_texts(const std::string& object, const std::string& name) const;
+  /// What an attribute of lists of references to objects has first in each list; 0 where a list is empty.
+  std::vector<std::uint64_t> read_attribute_references(const std::string& object, const std::string& name) const;
+  /// The reference to an object, as such attributes have it.
+  std::uint64_t reference_to(const std::string& object) const;
 
  private:
   /// The object, and the name of an attribute of it.
@@ -102,15 +114,19 @@ class Hdf5Reader {
   };
 
   [[noreturn]] void fail(const Name& name, const std::string& message) const;
-  /// All that follow are called with the mutex held. Sends a request; what `receive` returns of the answer.
+  /// All that follow are called with the mutex held. Sends a request, with `more` numbers; what `receive` returns of
+  /// the answer.
   template <class Receive>
-  auto ask(Hdf5Request request, ScalarType type, const Name& name, const Receive& receive) const;
+  auto ask(Hdf5Request request, ScalarType type, const Name& name, const Receive& receive,
+           std::span<const std::size_t> more = {}) const;
   /// What `take` returns of the message that is the answer.
   template <class Take>
   auto ask(Hdf5Request request, const Name& name, const Take& take) const;
   const Description& describe(const Name& name) const;
   template <class T>
   std::vector<T> read_numbers(const Name& name) const;
+  /// All values of one size, by that request.
+  std::string read_values(Hdf5Request request, const Name& name) const;
   std::vector<std::string> read_list(Hdf5Request request, const Name& name) const;
   std::vector<std::string> read_texts(const Name& name) const;
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -130,6 +131,17 @@ Hdf5Kind kind_at(const Hdf5Handle& object) {
   return type == H5I_GROUP ? Hdf5Kind::group : type == H5I_DATASET ? Hdf5Kind::dataset : Hdf5Kind::other;
 }
 
+/// Values of a chunk, of a dataset that has them; else 0. One at the edge is as large as all others, and taken to
+/// memory as a whole.
+std::uint64_t chunk_values(hid_t properties, std::size_t rank) {
+  if (H5Pget_layout(properties) != H5D_CHUNKED) {
+    return 0;
+  }
+  std::vector<hsize_t> extents(rank);
+  H5Pget_chunk(properties, static_cast<int>(rank), extents.data());
+  return std::accumulate(extents.begin(), extents.end(), std::uint64_t{1}, &saturating_product);
+}
+
 class Hdf5Service {
  public:
   explicit Hdf5Service(std::string_view bytes) : bytes_(bytes) {
@@ -234,14 +246,13 @@ class Hdf5Service {
     return source;
   }
 
-  void require_numbers(const Hdf5Source& source, ScalarType type) const {
+  static void require_numbers(const Hdf5Source& source, ScalarType type) {
     if (!source.shape.type) {
       fail(source.name, "holds no numbers of a type that is read");
     }
     if (is_real(*source.shape.type) && !is_real(type)) {
       fail(source.name, "holds " + std::string(to_string(*source.shape.type)) + ", where whole numbers are expected");
     }
-    require_bytes(source);
   }
 
   void require_bytes(const Hdf5Source& source) const {
@@ -252,28 +263,34 @@ class Hdf5Service {
       }
       return;
     }
-    const Hdf5Handle properties(H5Dget_create_plist(source.handle.get()), &H5Pclose);
-    const H5D_layout_t layout = H5Pget_layout(properties.get());
-    if (layout == H5D_VIRTUAL || H5Pget_external_count(properties.get()) > 0) {
-      fail(source.name, "is kept in other files, which are not read: 'h5repack' makes one file of them");
-    }
+    const Hdf5Handle properties = own_properties(source);
     const std::uint64_t stored = std::min<std::uint64_t>(H5Dget_storage_size(source.handle.get()), bytes_.size());
-    const bool is_filtered = layout == H5D_CHUNKED && H5Pget_nfilters(properties.get()) > 0;
+    const bool is_filtered = H5Pget_layout(properties.get()) == H5D_CHUNKED && H5Pget_nfilters(properties.get()) > 0;
     const std::uint64_t most = is_filtered ? saturating_product(most_bytes_of_one, stored) : stored;
-    // A chunk at the edge is as large as all others, and taken to memory as a whole.
-    std::uint64_t chunk = 0;
-    if (layout == H5D_CHUNKED) {
-      std::vector<hsize_t> extents(source.shape.extents.size());
-      H5Pget_chunk(properties.get(), static_cast<int>(extents.size()), extents.data());
-      chunk = H5Tget_size(source.type.get());
-      for (const hsize_t extent : extents) {
-        chunk = saturating_product(chunk, extent);
-      }
-    }
+    const std::uint64_t chunk =
+        saturating_product(chunk_values(properties.get(), source.shape.extents.size()), H5Tget_size(source.type.get()));
     if (wanted > 0 && std::max(wanted, chunk) > most) {
       fail(source.name, "declares " + std::to_string(source.shape.count()) + " values, more than the " +
                             std::to_string(stored) + " bytes that the file has of them can hold");
     }
+  }
+
+  /// As require_bytes(), of so many values of which the file may have none.
+  void require_room(const Hdf5Source& source, std::uint64_t values) const {
+    const Hdf5Handle properties = own_properties(source);
+    const std::uint64_t most = saturating_product(most_bytes_of_one, bytes_.size()) / H5Tget_size(source.type.get());
+    if (std::max(values, chunk_values(properties.get(), source.shape.extents.size())) > most) {
+      fail(source.name, "declares more values than a file of this size can hold");
+    }
+  }
+
+  /// How a dataset is kept: in this file.
+  static Hdf5Handle own_properties(const Hdf5Source& source) {
+    Hdf5Handle properties(H5Dget_create_plist(source.handle.get()), &H5Pclose);
+    if (H5Pget_layout(properties.get()) == H5D_VIRTUAL || H5Pget_external_count(properties.get()) > 0) {
+      fail(source.name, "is kept in other files, which are not read: 'h5repack' makes one file of them");
+    }
+    return properties;
   }
 
   std::vector<std::string> read_texts_of(const Hdf5Source& source) const {
@@ -339,7 +356,11 @@ class Hdf5Service {
   }
   std::string describe(const Hdf5Source& source) const;
   std::string read_numbers(const Hdf5Source& source, ScalarType type) const;
+  std::string read_part(const Hdf5Source& source, ScalarType type, Hdf5MessageReader& request) const;
   std::string read_bytes(const Hdf5Source& source) const;
+  std::string read_characters(const Hdf5Source& source) const;
+  static std::string read_references(const Hdf5Source& source);
+  std::string reference_to(const std::string& object) const;
 
   std::string_view bytes_;
   Hdf5Handle handle_;
@@ -377,11 +398,78 @@ std::string Hdf5Service::describe(const Hdf5Source& source) const {
 
 std::string Hdf5Service::read_numbers(const Hdf5Source& source, ScalarType type) const {
   require_numbers(source, type);
+  require_bytes(source);
   std::string values(static_cast<std::size_t>(source.shape.count()) * size_of(type), '\0');
   if (!values.empty() && !source.read(hdf5_memory_type(type), values.data())) {
     fail(source.name, "cannot be read" + hdf5_reason());
   }
   return values;
+}
+
+std::string Hdf5Service::read_part(const Hdf5Source& source, ScalarType type, Hdf5MessageReader& request) const {
+  require_numbers(source, type);
+  // The reader has compared them with the extents.
+  const std::size_t rank = source.shape.extents.size();
+  std::vector<hsize_t> begin(rank);
+  std::vector<hsize_t> counts(rank);
+  for (std::vector<hsize_t>* const list : {&begin, &counts}) {
+    std::ranges::generate(*list, [&request] { return static_cast<hsize_t>(request.number()); });
+  }
+  const std::uint64_t wanted = std::accumulate(counts.begin(), counts.end(), std::uint64_t{1}, &saturating_product);
+  require_room(source, wanted);
+  const Hdf5Handle all(H5Dget_space(source.handle.get()), &H5Sclose);
+  const Hdf5Handle part(
+      rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(rank), counts.data(), nullptr), &H5Sclose);
+  if (rank > 0) {
+    H5Sselect_hyperslab(all.get(), H5S_SELECT_SET, begin.data(), nullptr, counts.data(), nullptr);
+  }
+  std::string values(static_cast<std::size_t>(wanted) * size_of(type), '\0');
+  if (wanted > 0 &&
+      H5Dread(source.handle.get(), hdf5_memory_type(type), part.get(), all.get(), H5P_DEFAULT, values.data()) < 0) {
+    fail(source.name, "cannot be read" + hdf5_reason());
+  }
+  return values;
+}
+
+std::string Hdf5Service::read_characters(const Hdf5Source& source) const {
+  if (!source.shape.is_text || H5Tis_variable_str(source.type.get()) != 0 || H5Tget_size(source.type.get()) != 1) {
+    fail(source.name, "is of strings, where single characters are expected");
+  }
+  require_room(source, source.shape.count());
+  std::string characters(static_cast<std::size_t>(source.shape.count()), '\0');
+  if (!characters.empty() && !source.read(source.type.get(), characters.data())) {
+    fail(source.name, "cannot be read" + hdf5_reason());
+  }
+  return characters;
+}
+
+std::string Hdf5Service::read_references(const Hdf5Source& source) {
+  const Hdf5Handle listed(H5Tget_class(source.type.get()) == H5T_VLEN ? H5Tget_super(source.type.get()) : -1,
+                          &H5Tclose);
+  const std::uint64_t count = source.shape.count();
+  if (!listed.is_valid() || H5Tequal(listed.get(), H5T_STD_REF_OBJ) <= 0 || count == 0 || count > H5S_MAX_RANK) {
+    fail(source.name, "is no list of references to objects");
+  }
+  std::vector<hvl_t> lists(static_cast<std::size_t>(count));
+  if (!source.read(source.type.get(), lists.data())) {
+    fail(source.name, "cannot be read" + hdf5_reason());
+  }
+  Hdf5MessageWriter message;
+  message.number(count);
+  for (const hvl_t& list : lists) {
+    message.number(list.len == 0 || list.p == nullptr ? 0 : *static_cast<const hobj_ref_t*>(list.p));
+  }
+  const Hdf5Handle space(H5Aget_space(source.handle.get()), &H5Sclose);
+  H5Dvlen_reclaim(source.type.get(), space.get(), H5P_DEFAULT, lists.data());
+  return message.take();
+}
+
+std::string Hdf5Service::reference_to(const std::string& object) const {
+  hobj_ref_t reference = 0;
+  if (!open(object).is_valid() || H5Rcreate(&reference, handle_.get(), object.c_str(), H5R_OBJECT, -1) < 0) {
+    fail(object, "is no object of the file");
+  }
+  return Hdf5MessageWriter().number(reference).take();
 }
 
 std::string Hdf5Service::read_bytes(const Hdf5Source& source) const {
@@ -411,7 +499,9 @@ std::string Hdf5Service::answer(Hdf5MessageReader request) const {
   const auto kind = static_cast<Hdf5Request>(request.number());
   const auto type = static_cast<ScalarType>(request.number());
   const std::string object = request.text();
-  const std::optional<std::string> attribute = request.number() != 0 ? std::optional(request.text()) : std::nullopt;
+  const bool is_of_attribute = request.number() != 0;
+  const std::string name = request.text();
+  const std::optional<std::string> attribute = is_of_attribute ? std::optional(name) : std::nullopt;
   switch (kind) {
     case Hdf5Request::members: {
       const std::vector<Hdf5Member> found = members(object);
@@ -430,12 +520,20 @@ std::string Hdf5Service::answer(Hdf5MessageReader request) const {
       return describe(open_source(object, attribute));
     case Hdf5Request::numbers:
       return read_numbers(open_source(object, attribute), type);
+    case Hdf5Request::part:
+      return read_part(open_dataset(object), type, request);
     case Hdf5Request::bytes:
       return read_bytes(open_dataset(object));
+    case Hdf5Request::characters:
+      return read_characters(open_dataset(object));
     case Hdf5Request::texts:
       return list_of(read_texts_of(open_source(object, attribute)));
     case Hdf5Request::attribute_names:
       return list_of(attribute_names(object));
+    case Hdf5Request::references:
+      return read_references(open_attribute(object, attribute.value()));
+    case Hdf5Request::reference:
+      return reference_to(object);
     case Hdf5Request::has_attribute:
       break;
   }

@@ -82,6 +82,7 @@ struct NetcdfVariable {
   bool has_records = false;       ///< the first dimension is the record dimension of a classic file
   std::uint64_t begin = 0;        ///< classic files: byte offset of the first value
   std::uint64_t record_step = 0;  ///< classic files: bytes from a record to the next
+  std::string dataset;            ///< netCDF-4 files: the path of its values
 
   /// The text of the attribute of that name; empty where there is none, or no text.
   std::string_view text_of(std::string_view attribute) const {
@@ -95,6 +96,8 @@ struct NetcdfContent {
   std::vector<NetcdfDimension> dimensions;
   std::vector<NetcdfAttribute> attributes;
   std::vector<NetcdfVariable> variables;
+  /// Variables of netCDF-4 files that have not grown as far as their dimensions, which are none of `variables`.
+  std::vector<std::string> incomplete;
 };
 
 }  // namespace trismooth

@@ -8,12 +8,14 @@
 #include <type_traits>
 #include <utility>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/netcdf/netcdf_header.h"
+#include "trismooth/mesh_io/scalar_type_of.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -58,8 +60,8 @@ NetcdfFile::NetcdfFile(std::filesystem::path path, std::string_view bytes, const
   if (is_classic_netcdf(bytes)) {
     content_ = read_netcdf_header(path_, bytes);
   } else if (is_hdf5(bytes)) {
-    library_ = std::make_unique<const NetcdfLibraryFile>(path_, bytes);
-    content_ = library_->content();
+    netcdf4_ = open_netcdf4(path_, bytes);
+    content_ = netcdf4_->content();
   } else {
     throw ReadError(path_, "is no netCDF file: these begin with 'CDF' or, netCDF-4, as HDF5 files do");
   }
@@ -135,9 +137,13 @@ void NetcdfFile::read(const NetcdfVariable& variable, std::span<const std::size_
                    : std::is_floating_point_v<T> ? "is not of numbers"
                                                  : "is not of whole numbers");
   }
-  if (library_ != nullptr) {
-    const Part part = part_of(variable, leading);
-    library_->read(static_cast<std::size_t>(&variable - content_.variables.data()), part.begin, part.counts, values);
+  if (!is_classic()) {
+    if constexpr (std::is_same_v<T, char>) {
+      std::ranges::copy(netcdf4_->characters(variable), values.begin());
+    } else {
+      const Part part = part_of(variable, leading);
+      netcdf4_->read(variable, part.begin, part.counts, scalar_type_of<T>(), values.data());
+    }
   } else if (variable.has_records && leading.empty()) {
     const std::size_t records = variable.shape.front();
     const std::size_t each = records == 0 ? 0 : values.size() / records;
@@ -181,6 +187,15 @@ std::vector<std::string> NetcdfFile::texts(const NetcdfVariable& variable) const
     texts.push_back(std::move(text));
   }
   return texts;
+}
+
+void add_note_of_incomplete(const NetcdfFile& file, MeshDocument& document) {
+  const std::vector<std::string>& names = file.content().incomplete;
+  if (!names.empty()) {
+    constexpr std::size_t most = 8;
+    document.notes.push_back("Variables that have fewer values than their dimensions ask for stay in the file alone: " +
+                             first_of_list(names, most) + ".");
+  }
 }
 
 }  // namespace trismooth

@@ -17,12 +17,12 @@
 #include "trismooth/mesh_io/data_array.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/mesh_document.h"
+#include "trismooth/mesh_io/netcdf/netcdf4_file.h"
 #include "trismooth/mesh_io/netcdf/netcdf_content.h"
-#include "trismooth/mesh_io/netcdf/netcdf_library.h"
 
 namespace trismooth {
 
-/// A netCDF file to read: a classic one by its bytes, a netCDF-4 file by the library. What it declares is within what
+/// A netCDF file to read: a classic one by its bytes, a netCDF-4 file by HDF5. What it declares is within what
 /// its size allows, so whoever reads values may make room for them.
 class NetcdfFile {
  public:
@@ -31,7 +31,7 @@ class NetcdfFile {
 
   const std::filesystem::path& path() const { return path_; }
   const NetcdfContent& content() const { return content_; }
-  bool is_classic() const { return library_ == nullptr; }
+  bool is_classic() const { return netcdf4_ == nullptr; }
 
   /// The dimension's length, or nothing.
   std::optional<std::size_t> length_of(std::string_view dimension) const;
@@ -74,7 +74,7 @@ class NetcdfFile {
   std::filesystem::path path_;
   std::string_view bytes_;
   const FileWorkers& workers_;
-  std::unique_ptr<const NetcdfLibraryFile> library_;
+  std::unique_ptr<const Netcdf4File> netcdf4_;
   NetcdfContent content_;
   std::map<std::string_view, const NetcdfVariable*> variables_;  ///< by their names
 };
@@ -96,8 +96,11 @@ struct NetcdfSites {
 
 /// The original of a document that was read from `file`: `bytes`, with the values at these sites in place of those that
 /// differ. Of a classic file no other byte changes; a netCDF-4 file where nothing differs is written byte by byte, else
-/// the library overwrites the values in a copy. No two sites are the same value.
+/// HDF5 overwrites the values in a copy. No two sites are the same value.
 std::shared_ptr<const OriginalFile> make_netcdf_original(const NetcdfFile& file, FileBytes bytes,
                                                          std::vector<NetcdfSites> sites);
+
+/// Adds a note on variables that are not read for they lack values, where there are any.
+void add_note_of_incomplete(const NetcdfFile& file, MeshDocument& document);
 
 }  // namespace trismooth

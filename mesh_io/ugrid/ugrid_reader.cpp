@@ -46,6 +46,7 @@ class UgridReader {
     read_boundary();
     read_values();
     add_notes();
+    add_note_of_incomplete(file_, document_);
     document_.original = make_netcdf_original(file_, std::move(bytes), std::move(sites_));
     return std::move(document_);
   }

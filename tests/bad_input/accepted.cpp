@@ -49,7 +49,7 @@ TEST_CASE("Every file of the collection holds the mesh, and no two have one name
   for (const AcceptedFile& file : accepted_files::all()) {
     INFO(file.name);
     CHECK(names.insert(file.name).second);
-    CHECK(file.bytes.size() < (is_kept_by_hdf5(file) ? 10000 : 4000));
+    CHECK(file.bytes.size() < (is_kept_by_hdf5(file) ? 20000 : 4000));
     const Outcome outcome = read(file);
     INFO(outcome.message);
     REQUIRE(outcome.document);

@@ -88,7 +88,7 @@ bool is_vtk_xml(const accepted_files::AcceptedFile& file) {
 }
 
 bool is_kept_by_hdf5(const accepted_files::AcceptedFile& file) {
-  return trismooth::codec_of(accepted_files::format_of(file)).description.library == "HDF5";
+  return file.bytes.starts_with("\x89HDF");
 }
 
 std::size_t stride_of(const accepted_files::AcceptedFile& file) {

@@ -56,8 +56,10 @@ MeshDocument read_again(FileFormat format, const std::string& bytes, const std::
   }
 }
 
-bool is_kept_by_hdf5(FileFormat format) {
-  return trismooth::codec_of(format).description.library == "HDF5";
+/// Whether files of the format are HDF5, or may be.
+bool may_be_hdf5(FileFormat format) {
+  return trismooth::codec_of(format).description.library == "HDF5" || format == FileFormat::exodus ||
+         format == FileFormat::ugrid;
 }
 
 /// Nothing where a library refuses it: what HDF5 needs to change a file may be damaged, and nothing of what it needs to
@@ -67,7 +69,7 @@ std::optional<std::string> written_back(const MeshDocument& document) {
   try {
     document.original->write(file.path(), document, {}, {});
   } catch (const WriteError&) {
-    require(is_kept_by_hdf5(document.format), "what was read is not written back");
+    require(may_be_hdf5(document.format), "what was read is not written back");
     return std::nullopt;
   }
   return file.bytes();
@@ -289,7 +291,7 @@ void check_added_arrays(const MeshDocument& document) {
 /// In parts of any size, the reader says what it says number by number. HDF5 is read in one, by a process for each
 /// reading.
 void check_parts(FileFormat format, const std::string& bytes) {
-  if (is_kept_by_hdf5(format)) {
+  if (bytes.starts_with("\x89HDF")) {
     return;
   }
   trismooth::Workers alone(1);

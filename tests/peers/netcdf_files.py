@@ -2,11 +2,13 @@
 """Exodus II and UGRID as netCDF4, meshio and VTK write and read them."""
 
 import os
+import shutil
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "end_to_end"))
 
 try:
+    import h5py
     import meshio
     import netCDF4
     import numpy
@@ -135,6 +137,84 @@ class Exodus(NetcdfTest):
             results.append(self.report("smooth", "in.exo", "out.exo")["coordinates_hash"])
         self.assertEqual(len(set(results)), 1)
 
+    def hash_of(self, name):
+        return self.report("smooth", name, "out" + os.path.splitext(name)[1])["coordinates_hash"]
+
+    def test_dimensions_are_found_as_older_libraries_and_h5py_have_them(self):
+        write_exodus(self.path("in.exo"), "NETCDF4")
+        expected = self.hash_of("in.exo")
+        shutil.copy(self.path("in.exo"), self.path("references.exo"))
+        with h5py.File(self.path("references.exo"), "r+") as file:
+            numbers = 0
+            for dataset in file.values():
+                for name in ("_Netcdf4Coordinates", "_Netcdf4Dimid"):
+                    if name in dataset.attrs:
+                        del dataset.attrs[name]
+                        numbers += 1
+        self.assertGreater(numbers, 20)
+        self.assertEqual(self.hash_of("references.exo"), expected)
+        self.assert_only_changes("references.exo", "out.exo", {"coordx", "coordy"})
+        # A file that netCDF has never seen.
+        with h5py.File(self.path("in.exo")) as source, h5py.File(self.path("h5py.exo"), "w") as file:
+            for name, dataset in source.items():
+                if dataset.is_scale:
+                    file.create_dataset(name, shape=dataset.shape, maxshape=dataset.maxshape, dtype="f4")
+                    file[name].make_scale(name if dataset.ndim == 1 and dataset.id.get_storage_size() else
+                                          "This is a netCDF dimension but not a netCDF variable.")
+            for name, dataset in source.items():
+                if not dataset.is_scale:
+                    made = file.create_dataset(name, data=dataset[()])
+                    for axis in range(dataset.ndim):
+                        made.dims[axis].attach_scale(file[dataset.dims[axis][0].name])
+                    for key in ("elem_type",):
+                        if key in dataset.attrs:
+                            made.attrs[key] = dataset.attrs[key].decode() if isinstance(
+                                dataset.attrs[key], bytes) else dataset.attrs[key]
+        self.assertEqual(self.hash_of("h5py.exo"), expected)
+
+    def test_without_scales_dimensions_have_no_names_and_the_message_says_what_is_missing(self):
+        points = plate()[0]
+        with h5py.File(self.path("in.exo"), "w") as file:
+            file["coordx"], file["coordy"], file["num_dim"] = points[:, 0], points[:, 1], 2
+            file["num_nodes"] = len(points)
+        self.assertIn("it has no dimension num_dim", self.run_tool("smooth", "in.exo", "out.exo", expect=None).err)
+
+    def test_orders_of_bytes_chunks_and_checksums_stay(self):
+        points = write_exodus(self.path("in.exo"), "NETCDF4")
+        expected = self.hash_of("in.exo")
+        with netCDF4.Dataset(self.path("in.exo")) as source, netCDF4.Dataset(self.path("big.exo"), "w") as file:
+            for name, size in source.dimensions.items():
+                file.createDimension(name, None if size.isunlimited() else len(size))
+            for name, variable in source.variables.items():
+                kind = variable.dtype.str[1:]
+                kind = kind if kind == "S1" else ">" + kind
+                options = {} if kind == "S1" else {"endian": "big"}
+                if name.startswith(("coord", "connect")):
+                    options.update(chunksizes=(7, 3)[:variable.ndim], fletcher32=True, zlib=True, shuffle=True)
+                if name.startswith("connect"):
+                    kind = ">i8"
+                made = file.createVariable(name, kind, variable.dimensions, **options)
+                made[:] = variable[:]
+                made.setncatts({key: variable.getncattr(key) for key in variable.ncattrs()})
+        self.assertEqual(self.hash_of("big.exo"), expected)
+        self.assert_only_changes("big.exo", "out.exo", {"coordx", "coordy"})
+        self.assertEqual(len(points), (COLUMNS + 1) * (ROWS + 1))
+
+    def test_what_was_never_written_is_what_netcdf_says_of_it(self):
+        write_exodus(self.path("in.exo"), "NETCDF4")
+        with netCDF4.Dataset(self.path("in.exo"), "a") as file:
+            file.createDimension("num_elem_sets", 1)
+            file.createDimension("num_ele_els1", 2)
+            file.createVariable("els_names", "S1", ("num_elem_sets", "len_name"))
+            file.createVariable("els_prop1", "i4", ("num_elem_sets",))[:] = 5
+            file.createVariable("elem_els1", "i4", ("num_ele_els1",))[:] = [1, 2]
+            file.createVariable("num_nodes", "i4", ("num_elem_sets",))[:] = 1  # named as a dimension that it has not
+        self.run_tool("smooth", "in.exo", "out.inp")
+        with open(self.path("out.inp"), encoding="ascii") as file:
+            self.assertRegex(file.read().lower(), "elset=element.set.5\n1, 2")
+        self.run_tool("smooth", "in.exo", "out.exo")
+        self.assert_only_changes("in.exo", "out.exo", {"coordx", "coordy"})
+
     def test_sets_are_held_by_their_names(self):
         points = write_exodus(self.path("in.exo"), "NETCDF4")
         for name in ("exodus:block=floor", "corners", "exodus:block=copper"):
@@ -245,6 +325,30 @@ class Ugrid(NetcdfTest):
                     numpy.testing.assert_allclose(file["depth"][:], 10 + file["node_x"][:], rtol=0, atol=1e-12)
                 self.run_tool("smooth", "in.nc", "out.nc", "--fields", "keep")
                 self.assert_only_changes("in.nc", "out.nc", {"node_x", "node_y"})
+
+    def test_coordinates_that_are_dimensions_and_names_out_of_order(self):
+        """A dimension whose variable comes later than others, variables that have a dimension's name, and groups."""
+        points, left, right = plate()
+        with netCDF4.Dataset(self.path("in.nc"), "w") as file:
+            for name, length in (("three", 3), ("face", len(left) + len(right)), ("node", len(points))):
+                file.createDimension(name, length)
+            file.createVariable("node", "i4", ("node",))[:] = numpy.arange(len(points))
+            file.createVariable("three", "f8", ("face",))[:] = 4  # no coordinate
+            mesh = file.createVariable("mesh2d", "i4", ())
+            mesh.cf_role, mesh.topology_dimension = "mesh_topology", numpy.int32(2)
+            mesh.setncattr_string("node_coordinates", "x y")
+            mesh.face_node_connectivity, mesh.face_dimension = "faces", "face"
+            for axis, name in enumerate("xy"):
+                file.createVariable(name, "f8", ("node",))[:] = points[:, axis]
+            faces = file.createVariable("faces", "i8", ("three", "face"))
+            faces[:] = numpy.concatenate([left, right]).T
+            file.createGroup("other").createVariable("x", "f8", ("node",))[:] = 0
+        self.run_tool("smooth", "in.nc", "out.nc", "--fields", "keep")
+        self.assert_only_changes("in.nc", "out.nc", {"x", "y"})
+        self.run_tool("smooth", "in.nc", "out.vtu", "--fields", "keep")
+        mesh = meshio.read(self.path("out.vtu"))
+        numpy.testing.assert_array_equal(mesh.cell_data["three"][0], 4)
+        numpy.testing.assert_array_equal(mesh.point_data["node"], numpy.arange(len(points)))
 
     def test_degrees_are_told(self):
         self.write_coast("NETCDF4", True)

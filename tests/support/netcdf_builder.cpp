@@ -5,6 +5,12 @@
 #include <cstdint>
 #include <stdexcept>
 
+#ifdef TRISMOOTH_HAS_HDF5
+#include <algorithm>
+
+#include "support/small_hdf5.h"
+#endif
+
 namespace test_support {
 
 namespace {
@@ -96,7 +102,75 @@ std::string NetcdfBuilder::attributes(const std::vector<Attribute>& all) const {
   return bytes;
 }
 
+#ifdef TRISMOOTH_HAS_HDF5
+
+std::string NetcdfBuilder::netcdf4_bytes() const {
+  SmallHdf5 file;
+  constexpr std::string_view none = "This is a netCDF dimension but not a netCDF variable.";
+  const auto is_variable = [this](const std::string& name) {
+    return std::ranges::any_of(variables_, [&name](const Variable& variable) { return variable.name == name; });
+  };
+  for (std::size_t i = 0; i < dimensions_.size(); ++i) {
+    const auto& [name, length] = dimensions_[i];
+    if (naming_ == Naming::not_at_all || is_variable(name)) {
+      continue;
+    }
+    file.dataset("/" + name, H5T_IEEE_F32BE, {length}, length == 0, "");
+    file.text("/" + name, "CLASS", "DIMENSION_SCALE", 16);
+    file.text("/" + name, "NAME", std::string(none), none.size() + 1);
+    if (naming_ == Naming::by_number) {
+      file.attribute("/" + name, "_Netcdf4Dimid", static_cast<std::int32_t>(i));
+    }
+  }
+  const auto add_attributes = [&file](const std::string& object, const std::vector<Attribute>& all) {
+    for (const Attribute& attribute : all) {
+      if (attribute.numbers.empty()) {
+        file.text(object, attribute.name, attribute.text, std::max<std::size_t>(attribute.text.size(), 1));
+      } else {
+        file.attributes(object, attribute.name, attribute.numbers);
+      }
+    }
+  };
+  add_attributes("/", attributes_);
+  for (const Variable& variable : variables_) {
+    std::vector<hsize_t> extents;
+    std::vector<std::int32_t> numbers;
+    std::vector<std::string> scales;
+    for (const int dimension : variable.dimensions) {
+      const auto& [name, length] = dimensions_.at(static_cast<std::size_t>(dimension));
+      extents.push_back(length == 0 ? records_ : length);
+      numbers.push_back(dimension);
+      scales.push_back("/" + name);
+    }
+    const hid_t type = variable.type == int32     ? H5T_STD_I32BE
+                       : variable.type == int64   ? H5T_STD_I64BE
+                       : variable.type == float32 ? H5T_IEEE_F32BE
+                       : variable.type == float64 ? H5T_IEEE_F64BE
+                                                  : H5T_C_S1;
+    const std::string path = "/" + variable.name;
+    file.dataset(path, type, extents, variable.has_records, variable.bytes);
+    if (naming_ == Naming::by_number && !numbers.empty()) {
+      file.attributes(path, "_Netcdf4Coordinates", numbers);
+    } else if (naming_ == Naming::by_reference && !scales.empty()) {
+      file.references(path, "DIMENSION_LIST", scales);
+    }
+    add_attributes(path, variable.attributes);
+  }
+  return file.bytes();
+}
+
+#else
+
+std::string NetcdfBuilder::netcdf4_bytes() const {
+  throw std::logic_error("no netCDF-4 files without HDF5");
+}
+
+#endif
+
 std::string NetcdfBuilder::bytes() const {
+  if (version_ == 4) {
+    return netcdf4_bytes();
+  }
   // Once to know how long the header is, and once with the places of values.
   std::string header;
   for (int pass = 0; pass < 2; ++pass) {

@@ -91,6 +91,49 @@ class SmallHdf5 {
     add_attribute(path, name, trismooth::hdf5_memory_type(trismooth::scalar_type_of<T>()), &value);
   }
 
+  template <class T>
+  void attributes(const std::string& path, const std::string& name, const std::vector<T>& values) {
+    const Hdf5Lock lock;
+    add_attribute(path, name, trismooth::hdf5_memory_type(trismooth::scalar_type_of<T>()), values.data(),
+                  values.size());
+  }
+
+  /// A dataset of values as they are in the file, or of none; one that grows has chunks.
+  void dataset(const std::string& path, hid_t type, std::vector<hsize_t> extents, bool grows, std::string_view bytes) {
+    const Hdf5Lock lock;
+    std::vector<hsize_t> most = extents;
+    const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+    H5Pset_obj_track_times(properties.get(), 0);
+    if (grows) {
+      most.front() = H5S_UNLIMITED;
+      std::vector<hsize_t> chunk(extents);
+      chunk.front() = 1;
+      H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+    }
+    const Hdf5Handle space(extents.empty()
+                               ? H5Screate(H5S_SCALAR)
+                               : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), most.data()),
+                           &H5Sclose);
+    const Hdf5Handle made(H5Dcreate2(id(), path.c_str(), type, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                          &H5Dclose);
+    if (!bytes.empty()) {
+      H5Dwrite(made.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
+    }
+  }
+
+  /// An attribute of lists of one reference each.
+  void references(const std::string& path, const std::string& name, const std::vector<std::string>& to) {
+    const Hdf5Lock lock;
+    std::vector<hobj_ref_t> all(to.size());
+    std::vector<hvl_t> lists;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      H5Rcreate(&all[i], id(), to[i].c_str(), H5R_OBJECT, -1);
+      lists.push_back({1, &all[i]});
+    }
+    const Hdf5Handle type(H5Tvlen_create(H5T_STD_REF_OBJ), &H5Tclose);
+    add_attribute(path, name, type.get(), lists.data(), lists.size());
+  }
+
   void text(const std::string& path, const std::string& name, std::string value, std::size_t size) {
     const Hdf5Lock lock;
     value.resize(size, '\0');
@@ -115,8 +158,10 @@ class SmallHdf5 {
     H5Dwrite(made.get(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, all);
   }
 
-  void add_attribute(const std::string& path, const std::string& name, hid_t type, const void* value) {
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), &H5Sclose);
+  /// So many values; 0: one that is no list.
+  void add_attribute(const std::string& path, const std::string& name, hid_t type, const void* value,
+                     hsize_t count = 0) {
+    const Hdf5Handle space(count == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), &H5Sclose);
     const Hdf5Handle at(H5Oopen(id(), path.c_str(), H5P_DEFAULT), &H5Oclose);
     const Hdf5Handle made(H5Acreate2(at.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
     H5Awrite(made.get(), type, value);

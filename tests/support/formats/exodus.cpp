@@ -133,6 +133,10 @@ void add_exodus(std::vector<AcceptedFile>& files) {
   add("step", exodus_file({.real = NetcdfBuilder::float32, .steps = 1}));
   add("steps", exodus_file({.version = 1, .steps = 3, .has_sets = true}));
   add("polygons", exodus_file({}, true));
+#ifdef TRISMOOTH_HAS_HDF5
+  add("netcdf4", exodus_file({.version = 4, .axes = 3}));
+  add("netcdf4_step", exodus_file({.version = 4, .real = NetcdfBuilder::float32, .steps = 1}));
+#endif
 }
 
 }  // namespace

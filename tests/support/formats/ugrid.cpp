@@ -24,6 +24,7 @@ struct UgridSpelling {
 std::string ugrid_file(const UgridSpelling& spelling, bool others = false) {
   const Mesh plate = mesh(others);
   NetcdfBuilder file(spelling.version);
+  file.name_dimensions(NetcdfBuilder::Naming::by_number);
   const int nodes = file.dimension("nodes", plate.points.size());
   const int faces = file.dimension("faces", plate.faces.size());
   const std::size_t most = others ? 5 : 3;
@@ -78,6 +79,9 @@ void add_ugrid(std::vector<AcceptedFile>& files) {
   add("plain", ugrid_file({}));
   add("from_one", ugrid_file({.version = 1, .start = 1, .has_depths = true}));
   add("transposed", ugrid_file({.real = NetcdfBuilder::float32, .is_transposed = true, .has_lines = true}, true));
+#ifdef TRISMOOTH_HAS_HDF5
+  add("netcdf4", ugrid_file({.version = 4, .start = 1, .has_lines = true, .has_depths = true}));
+#endif
   add("real_nodes", ugrid_file({.version = 5, .whole = NetcdfBuilder::float64, .start = 1, .has_lines = true}));
 }
 
