@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <thread>
 
 #include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/errors.h"
@@ -358,25 +357,6 @@ TEST_CASE("links are listed and not followed; groups in a circle are groups") {
   CHECK(members[2].kind == Hdf5Kind::link);
   CHECK(refusal_of(bytes, "/outside/x").find("leads through 'outside', a link, which is not followed") !=
         std::string::npos);
-}
-
-TEST_CASE("several threads read HDF5 at a time") {
-  const ScratchFolder folder;
-  const std::string bytes = small_file(folder);
-  std::array<bool, 4> same{};
-  {
-    std::vector<std::jthread> threads;
-    for (bool& one : same) {
-      threads.emplace_back([&one, &bytes] {
-        one = true;
-        for (int i = 0; i < 20; ++i) {
-          const Hdf5Reader reader("a.h5", bytes);
-          one = one && reader.read<std::int64_t>("/Mesh/cells") == std::vector<std::int64_t>{0, 1, 2};
-        }
-      });
-    }
-  }
-  CHECK(same == std::array{true, true, true, true});
 }
 
 }  // namespace trismooth::hdf5_test

@@ -24,6 +24,7 @@
 
 #include "catch.h"
 #include "support/memory_file.h"
+#include "support/sanitized.h"
 #include "support/small_hdf5.h"
 
 using trismooth::Hdf5Channel;
@@ -35,6 +36,9 @@ using trismooth::ReadError;
 
 namespace trismooth::hdf5_child_test {
 namespace {
+
+/// The address sanitizer's memory, other than the C library's, cannot be copied to a child while threads ask for some.
+constexpr int threads_at_once = is_sanitized ? 1 : 6;
 
 constexpr Hdf5Child::Limits few{2, std::uint64_t{64} << 20};
 
@@ -249,7 +253,7 @@ TEST_CASE("readers in several threads, and threads at one reader, each get what 
   {
     const Hdf5Reader shared("a.h5", bytes);
     std::vector<std::jthread> threads;
-    for (int thread = 0; thread < 6; ++thread) {
+    for (int thread = 0; thread < threads_at_once; ++thread) {
       threads.emplace_back([&] {
         for (int i = 0; i < 10; ++i) {
           const Hdf5Reader own("a.h5", bytes);
@@ -261,7 +265,7 @@ TEST_CASE("readers in several threads, and threads at one reader, each get what 
       });
     }
   }
-  CHECK(right == 60);
+  CHECK(right == 10 * threads_at_once);
   CHECK(has_no_children());
 }
 
