@@ -262,10 +262,10 @@ class XdmfReader {
     }
   }
 
-  /// As it is: blanks are part of it.
+  /// As it is: blanks are part of it. What has none is called as VTK files call it.
   static std::string name_of(const XmlElement& element) {
     const std::string* const name = element.attribute("Name");
-    return name == nullptr ? std::string() : *name;
+    return name == nullptr || name->empty() ? "unnamed" : *name;
   }
 
   void add_attribute(const XmlElement& attribute, const Part& part) {

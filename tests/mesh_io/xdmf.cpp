@@ -170,6 +170,12 @@ TEST_CASE("XDMF: sets of points and cells come by their names") {
   CHECK(says(failure(file(grid(two_triangles + points() + set("Node", "0 4")))), "has the member 4"));
 }
 
+TEST_CASE("XDMF: an array without a name is called as VTK calls it") {
+  const MeshDocument document = xdmf.read(file(grid(two_triangles + points() + attribute("", "Cell", "2", "5 6"))));
+  REQUIRE(document.cell_arrays.size() == 1);
+  CHECK(document.cell_arrays[0].name == "unnamed");
+}
+
 TEST_CASE("XDMF: what breaks the rules is refused with the line and what is wrong") {
   const auto refused = [](const std::string& text, std::string_view what) {
     const std::string message = failure(text);
