@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace trismooth {
 
@@ -28,6 +29,11 @@ std::span<const CgnsElement> cgns_elements();
 
 /// The one of that number, or null.
 const CgnsElement* find_cgns_element(std::int64_t number);
+
+/// What a section of elements of that type is called that is written.
+inline std::string cgns_section_name(std::int64_t type) {
+  return "Elements_" + std::to_string(type);
+}
 
 /// What a cell of that type with so many vertices is written as; null: none.
 const CgnsElement* cgns_element_of_cell(std::uint8_t type, std::size_t vertices);

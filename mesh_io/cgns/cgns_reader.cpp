@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/cgns/cgns_section_groups.h"
 #include "trismooth/mesh_io/cgns/cgns_sections.h"
 #include "trismooth/mesh_io/cgns/cgns_solutions.h"
 #include "trismooth/mesh_io/cgns/cgns_tree.h"
@@ -313,6 +314,7 @@ class CgnsReader {
     document_.point_sets = of_points_.take();
     std::vector<NamedSet> groups = of_cells_.take();
     const bool has_groups = !groups.empty();
+    bool tells_sections = false;
     if (zones_.size() > 1) {
       document_.notes.emplace_back(
           "The file has several zones, which are joined: "
@@ -333,25 +335,34 @@ class CgnsReader {
       std::ranges::move(of_zones.take(), std::back_inserter(groups));
     } else if (!has_groups && zones_.front().sections.all().size() > 1) {
       // Nothing else tells regions and sides apart.
-      NamedMembers of_sections;
-      for (const CgnsSection& section : zones_.front().sections.all()) {
-        std::vector<std::int32_t>& group = of_sections.of(section.name);
-        for (std::size_t i = 0; i < section.count; ++i) {
-          group.push_back(static_cast<std::int32_t>(section.first_cell + i));
-        }
-      }
-      groups = of_sections.take();
+      CgnsSectionGroups of_sections = group_cgns_sections(zones_.front().sections, document_.cells);
+      groups = std::move(of_sections.groups);
+      tells_sections = of_sections.are_joined;
     }
     std::vector<ListedGroup> listed;
     for (NamedSet& set : groups) {
       listed.push_back({0, std::move(set.name), std::move(set.members)});
     }
     add_listed_groups("cgns:group", std::move(listed), document_);
+    if (tells_sections) {
+      add_sections();
+    }
     std::ranges::sort(linked_);
     linked_.erase(std::unique(linked_.begin(), linked_.end()), linked_.end());
     if (!linked_.empty()) {
       document_.implied_sets.push_back({std::string(link_set_name), std::move(linked_)});
     }
+  }
+
+  /// The section of each cell, from 1, for those to whom it is a region.
+  void add_sections() {
+    std::vector<std::int32_t> numbers;
+    numbers.reserve(document_.cells.size());
+    std::int32_t number = 0;
+    for (const CgnsSection& section : zones_.front().sections.all()) {
+      numbers.insert(numbers.end(), section.count, ++number);
+    }
+    document_.cell_arrays.push_back(make_data_array("cgns:section", 1, std::move(numbers)));
   }
 
   CgnsTree tree_;

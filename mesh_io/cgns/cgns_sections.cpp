@@ -39,7 +39,7 @@ class CgnsSectionsReader {
       }
       const std::size_t first_cell = cells_.size();
       read_nodes(section);
-      sections.push_back({section.node.name, section.first, cells_.size() - first_cell, first_cell});
+      sections.push_back({section.node.name, section.first, cells_.size() - first_cell, first_cell, section.type});
     }
     return CgnsSections(std::move(sections));
   }

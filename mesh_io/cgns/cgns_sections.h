@@ -18,6 +18,7 @@ struct CgnsSection {
   std::int64_t first_number = 1;
   std::size_t count = 0;
   std::size_t first_cell = 0;
+  std::int64_t type = 0;  ///< ElementType_t
 };
 
 /// The sections of a zone.

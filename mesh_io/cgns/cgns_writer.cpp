@@ -26,19 +26,73 @@ constexpr std::size_t most_name_size = 32;
 /// A slash stands between the names of a path.
 constexpr std::string_view no_name_characters = "/";
 
-/// The cells of each type in the order in which they are written; polygons
-/// behind all others.
-std::vector<std::vector<std::size_t>> cells_by_type(const CellList& cells) {
-  const std::span<const CgnsElement> elements = cgns_elements();
-  std::vector<std::vector<std::size_t>> sections(elements.size() + 1);
+constexpr std::array<std::string_view, 4> names_of_dimensions{"Points", "Lines", "Faces", "Solids"};
+
+/// Cells that are written together.
+struct WrittenSection {
+  std::int64_t type = 0;  ///< of all of them, or mixed
+  std::vector<std::size_t> cells;
+};
+
+/// Those of each type, as programs read them that know no mixed ones (CGNS before version 4), where the types follow
+/// each other; else the section as it is.
+std::vector<WrittenSection> sections_by_type(WrittenSection section, const CellList& cells) {
+  const auto type_of = [&cells](std::size_t cell) {
+    return cgns_element_of_cell(cells.types[cell], cells[cell].size())->number;
+  };
+  std::vector<WrittenSection> of_types;
+  for (const std::size_t cell : section.cells) {
+    if (const std::int64_t type = type_of(cell); of_types.empty() || of_types.back().type != type) {
+      if (std::ranges::find(of_types, type, &WrittenSection::type) != of_types.end()) {
+        return {std::move(section)};
+      }
+      of_types.push_back({type, {}});
+    }
+    of_types.back().cells.push_back(cell);
+  }
+  return of_types;
+}
+
+/// Points, lines, faces, solids and polygons, each in the order of the document, in the order in which they come first.
+/// Triangles and quadrilaterals in turn are one section.
+std::vector<WrittenSection> sections_of(const CellList& cells) {
+  constexpr std::size_t of_polygons = names_of_dimensions.size();
+  std::array<std::size_t, of_polygons + 1> places{};  // and 1
+  std::vector<WrittenSection> sections;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    if (const CgnsElement* const element = cgns_element_of_cell(cells.types[cell], cells[cell].size())) {
-      sections[static_cast<std::size_t>(element - elements.data())].push_back(cell);
-    } else if (cells.types[cell] == cell_type::polygon && cells[cell].size() >= 3) {
-      sections.back().push_back(cell);
+    const CgnsElement* const element = cgns_element_of_cell(cells.types[cell], cells[cell].size());
+    if (element == nullptr && (cells.types[cell] != cell_type::polygon || cells[cell].size() < 3)) {
+      continue;
+    }
+    const std::int64_t type = element == nullptr ? cgns_type::polygons : element->number;
+    std::size_t& place =
+        places.at(element == nullptr ? of_polygons : static_cast<std::size_t>(cell_type::dimension(element->type)));
+    if (place == 0) {
+      sections.push_back({type, {}});
+      place = sections.size();
+    }
+    WrittenSection& section = sections[place - 1];
+    section.type = section.type == type ? type : cgns_type::mixed;
+    section.cells.push_back(cell);
+  }
+  std::vector<WrittenSection> written;
+  for (WrittenSection& section : sections) {
+    if (section.type == cgns_type::mixed) {
+      std::ranges::move(sections_by_type(std::move(section), cells), std::back_inserter(written));
+    } else {
+      written.push_back(std::move(section));
     }
   }
-  return sections;
+  return written;
+}
+
+bool is_in_order(const std::vector<WrittenSection>& sections) {
+  std::size_t next = 0;
+  return std::ranges::all_of(sections, [&next](const WrittenSection& section) {
+    const bool follows = section.cells.front() >= next;
+    next = section.cells.back() + 1;
+    return follows;
+  });
 }
 
 class CgnsWriter {
@@ -52,7 +106,7 @@ class CgnsWriter {
     for (std::size_t z = 2; z < points.size() && axes_ == 2; z += 3) {
       axes_ = points[z] != 0 || std::signbit(points[z]) ? 3 : 2;
     }
-    const std::vector<std::vector<std::size_t>> sections = cells_by_type(document_.cells);
+    const std::vector<WrittenSection> sections = sections_of(document_.cells);
     write_base(sections);
     write_coordinates();
     write_sections(sections);
@@ -98,18 +152,18 @@ class CgnsWriter {
     };
     write_text("/ format", "IEEE_LITTLE_32", 15);
     write_text("/ hdf5version", "HDF5 Version 1.8", most_name_size + 1);
-    // The first that has offsets of polygons.
+    // The first that has offsets of polygons and mixed elements.
     constexpr float version = 3.4F;
     add("/CGNSLibraryVersion", "CGNSLibraryVersion_t", "R4", std::vector<float>{version});
   }
 
-  void write_base(const std::vector<std::vector<std::size_t>>& sections) {
+  void write_base(const std::vector<WrittenSection>& sections) {
     int dimension = 1;
     std::size_t cells = 0;
     for (int pass = 0; pass < 2; ++pass) {
-      for (const std::vector<std::size_t>& section : sections) {
-        const int own = section.empty() ? 0 : cell_type::dimension(document_.cells.types[section.front()]);
-        cells += pass == 1 && own == dimension ? section.size() : 0;
+      for (const WrittenSection& section : sections) {
+        const int own = cell_type::dimension(document_.cells.types[section.cells.front()]);
+        cells += pass == 1 && own == dimension ? section.cells.size() : 0;
         dimension = std::max(dimension, own);
       }
     }
@@ -138,34 +192,36 @@ class CgnsWriter {
     }
   }
 
-  void write_sections(const std::vector<std::vector<std::size_t>>& sections) {
+  void write_sections(const std::vector<WrittenSection>& sections) {
     const CellList& cells = document_.cells;
     numbers_.assign(cells.size(), 0);
     std::int32_t next = 1;
-    for (std::size_t i = 0; i < sections.size(); ++i) {
-      if (sections[i].empty()) {
-        continue;
-      }
-      const bool are_polygons = i + 1 == sections.size();
+    for (const auto& [type, members] : sections) {
       std::vector<std::int32_t> nodes;
       std::vector<std::int32_t> begins{0};
-      for (const std::size_t cell : sections[i]) {
+      for (const std::size_t cell : members) {
         const std::span<const std::int32_t> vertices = cells[cell];
+        const CgnsElement* const element = cgns_element_of_cell(cells.types[cell], vertices.size());
+        if (type == cgns_type::mixed) {
+          nodes.push_back(static_cast<std::int32_t>(element->number));
+        }
         const std::size_t first = nodes.size();
         nodes.resize(first + vertices.size());
         for (std::size_t k = 0; k < vertices.size(); ++k) {
-          nodes[first + (are_polygons ? k : cgns_elements()[i].place(k))] = vertices[k] + 1;
+          nodes[first + (element == nullptr ? k : element->place(k))] = vertices[k] + 1;
         }
         begins.push_back(static_cast<std::int32_t>(nodes.size()));
         numbers_[cell] = next++;
       }
-      const std::int64_t type = are_polygons ? cgns_type::polygons : cgns_elements()[i].number;
-      const std::string section = zone_path_ + "/Elements_" + std::to_string(type);
+      const bool is_mixed = type == cgns_type::mixed;
+      const auto dimension = static_cast<std::size_t>(cell_type::dimension(cells.types[members.front()]));
+      std::string section = zone_path_ + "/";
+      section += is_mixed ? std::string(names_of_dimensions.at(dimension)) : cgns_section_name(type);
       add(section, "Elements_t", "I4", std::vector<std::int32_t>{static_cast<std::int32_t>(type), 0});
-      const auto count = static_cast<std::int32_t>(sections[i].size());
+      const auto count = static_cast<std::int32_t>(members.size());
       add(section + "/ElementRange", "IndexRange_t", "I4", std::vector<std::int32_t>{next - count, next - 1});
       add(section + "/ElementConnectivity", "DataArray_t", "I4", nodes);
-      if (are_polygons) {
+      if (is_mixed || type == cgns_type::polygons) {
         add(section + "/ElementStartOffset", "DataArray_t", "I4", begins);
       }
     }
@@ -249,7 +305,11 @@ std::vector<std::string> lost_in_cgns(const MeshDocument& document) {
                         "blanks around them: changed are " +
                         list_text(names.renamed));
   }
-  std::ranges::move(describe_new_order("CGNS", types, document.cells), std::back_inserter(sentences));
+  if (!is_in_order(sections_of(document.cells))) {
+    sentences.emplace_back(
+        "CGNS lists points, lines, faces and solids, and polygons, one behind the other: they are written in another "
+        "order");
+  }
   return sentences;
 }
 

@@ -10,8 +10,9 @@
 
 namespace trismooth {
 
-/// Writes the document as a CGNS file in HDF5: one zone with a section for each
-/// type of element, a boundary condition and a family for each group and set.
+/// Writes the document as a CGNS file in HDF5: one zone with a section of points,
+/// one of lines, of faces and of solids (MIXED where they are of several types)
+/// and one of polygons, a boundary condition and a family for each group and set.
 /// Throws WriteError. Complexity: n log n in the members of groups and sets.
 void write_cgns(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers);
 

@@ -132,8 +132,9 @@ constexpr std::array marker_names = std::to_array<std::string_view>(
 constexpr std::array bookkeeping_parts = std::to_array<std::string_view>(
     {"ghost", "halo", "partition", "rank", "proc", "mpi", "decomposition", "metis", "original", "parent"});
 
-/// ... and those that are one of these.
-constexpr std::array bookkeeping_names = std::to_array<std::string_view>({"pid", "owner", "thread", "threadid"});
+/// ... and those that are one of these. The last ones tell lists of elements apart that differ in their type.
+constexpr std::array bookkeeping_names =
+    std::to_array<std::string_view>({"pid", "owner", "thread", "threadid", "cgnssection", "exodustypedblock"});
 
 /// scikit-fem: an array for each named subdomain, and one for each named boundary. The name follows.
 constexpr std::string_view skfem_subdomain = "skfem:s:";

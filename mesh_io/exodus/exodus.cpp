@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/document/free_names.h"
+#include "trismooth/mesh_io/exodus/exodus_blocks.h"
 #include "trismooth/mesh_io/exodus/exodus_plan.h"
 #include "trismooth/mesh_io/exodus/exodus_reader.h"
 #include "trismooth/mesh_io/netcdf/netcdf_header.h"
@@ -152,6 +153,11 @@ class ExodusWriter {
     blocks_ = file_.add_dimension("num_el_blk", plan_.blocks.size());
     add_ids("eb_status", "eb_prop1", blocks_, plan_.blocks);
     add_names("eb_names", blocks_, plan_.blocks);
+    if (plan_.has_regions) {
+      file_.add_variable(exodus_region_property, {blocks_},
+                         [this](std::size_t i) { return static_cast<std::int32_t>(plan_.blocks[i].region); },
+                         {{"name", std::string(exodus_region_name), {}}});
+    }
     for (std::size_t i = 0; i < plan_.blocks.size(); ++i) {
       add_block(plan_.blocks[i], std::to_string(i + 1));
     }
@@ -303,9 +309,14 @@ std::vector<std::string> lost_in_exodus(const MeshDocument& document) {
     sentences.push_back("Exodus II numbers blocks from 1 on, each number once: changed are " +
                         list_text(plan.renumbered));
   }
+  if (!plan.split.empty()) {
+    sentences.push_back(
+        "Exodus II has a block for each type of cell: groups of several types are several blocks, which their property "
+        "'region' keeps together: " +
+        list_text(plan.split));
+  }
   if (!plan.renamed.empty()) {
-    sentences.push_back("Exodus II has a block for each type of cell, each with a name of its own: changed are " +
-                        list_text(plan.renamed));
+    sentences.push_back("Exodus II has a name of its own for each block: changed are " + list_text(plan.renamed));
   }
   return sentences;
 }

@@ -15,6 +15,10 @@
 
 namespace trismooth {
 
+/// The property of blocks that says which are one region, by the id of the first of these, and its name in files.
+inline constexpr const char* exodus_region_property = "eb_prop2";
+inline constexpr std::string_view exodus_region_name = "region";
+
 /// A block of elements, whose cells follow each other.
 struct ExodusBlock {
   std::size_t number = 0;  ///< in names of variables, from 1

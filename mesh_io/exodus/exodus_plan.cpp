@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
 
@@ -161,30 +163,54 @@ class Planner {
     }
   }
 
-  /// Groups of faces keep their numbers before all others.
+  /// Groups of faces keep their numbers before all others, and the first block of each before others of it.
   void name_blocks(const std::map<std::pair<std::uint8_t, std::int32_t>, std::size_t>& places,
                    std::vector<ExodusPlanBlock>& blocks) {
-    std::vector<std::tuple<int, std::int64_t, std::uint8_t, std::int32_t, std::size_t>> order;
+    std::vector<std::tuple<bool, int, std::int64_t, std::uint8_t, std::int32_t, std::size_t>> order;
+    std::map<std::pair<int, std::int32_t>, std::vector<std::size_t>> of_groups;
     for (const auto& [key, block] : places) {
       const int dimension = cell_type::dimension(key.first);
       const std::int64_t number = key.second < 0 ? 0 : groups_.groups[static_cast<std::size_t>(key.second)].number;
-      order.emplace_back(key.second < 0 ? 4 : dimension == 2 ? 0 : 1 + dimension, number, key.first, key.second, block);
+      std::vector<std::size_t>& of_group = of_groups[{dimension, key.second}];
+      of_group.push_back(block);
+      order.emplace_back(of_group.size() > 1,
+                         key.second < 0   ? 4
+                         : dimension == 2 ? 0
+                                          : 1 + dimension,
+                         number, key.first, key.second, block);
     }
     std::ranges::sort(order);
     FreeIds ids;
     FreeNames names;
-    for (const auto& [rank, number, type, group, block] : order) {
-      blocks[block].id = ids.claim(number);
+    for (const auto& [is_further, rank, number, type, group, block] : order) {
+      const std::vector<std::size_t>& of_group = of_groups.at({cell_type::dimension(type), group});
+      blocks[block].id = ids.claim(is_further ? 0 : number);
+      blocks[block].region = blocks[of_group.front()].id;
       if (group < 0) {
         continue;
       }
       const std::string& name = groups_.groups[static_cast<std::size_t>(group)].name;
-      note_number(number, name, blocks[block].id);
+      if (!is_further) {
+        note_number(number, name, blocks[block].id);
+      }
       if (!name.empty()) {
-        blocks[block].name = names.claim(name);
-        if (blocks[block].name != name) {
-          plan_.renamed.push_back(name + " (as " + blocks[block].name + ")");
+        const std::string wanted =
+            is_further ? name + "_" + lower_case(blocks[block].shape.nodes == 0 ? "nsided" : blocks[block].shape.name)
+                       : name;
+        blocks[block].name = names.claim(wanted);
+        if (blocks[block].name != wanted) {
+          plan_.renamed.push_back(wanted + " (as " + blocks[block].name + ")");
         }
+      }
+    }
+    for (const auto& [key, of_group] : of_groups) {
+      const auto& [dimension, group] = key;
+      plan_.has_regions = plan_.has_regions || (dimension == 2 && of_group.size() > 1);
+      if (group >= 0 && of_group.size() > 1) {
+        const CellGroup& split = groups_.groups[static_cast<std::size_t>(group)];
+        plan_.split.push_back(
+            (split.name.empty() ? std::to_string(split.number) : split.name) + " (" +
+            list_text(of_group, [&blocks](std::size_t block) { return std::to_string(blocks[block].id); }) + ")");
       }
     }
   }

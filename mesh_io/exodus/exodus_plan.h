@@ -15,6 +15,7 @@ namespace trismooth {
 struct ExodusPlanBlock {
   std::int64_t id = 0;
   std::string name;
+  std::int64_t region = 0;          ///< the id of the first block of its group
   ExodusShape shape;                ///< without nodes: polygons
   std::vector<std::int32_t> cells;  ///< in the document's order
 };
@@ -27,7 +28,8 @@ struct ExodusPlanSet {
   std::vector<std::int32_t> sides;    ///< of these elements, from 0; of side sets
 };
 
-/// What is written of a document. Cells of a group become a block for each type. Lines of a group, or of a set, that
+/// What is written of a document. Cells of a group become a block for each type, the first
+/// of them under the group's number and name. Lines of a group, or of a set, that
 /// are sides of faces become a side set, as programs want boundaries; all other lines are blocks.
 struct ExodusPlan {
   std::string group_array;  ///< the cell array that blocks and side sets are from; empty: none
@@ -41,6 +43,8 @@ struct ExodusPlan {
   std::size_t lines_as_sides = 0;       ///< lines that are no elements
   std::vector<std::string> renumbered;  ///< "0 (wall) to 3": groups that are written under another number
   std::vector<std::string> renamed;     ///< "wall (as wall_1)"
+  std::vector<std::string> split;       ///< "wall (3, 5)": groups of several blocks
+  bool has_regions = false;             ///< some group, or what is in none, has several blocks of faces
 };
 
 /// Complexity: linear, but for n log n in the lines.

@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
+#include "trismooth/base/text/letter_case.h"
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/cells/listed_groups.h"
+#include "trismooth/mesh_io/document/cells/name_without_type.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/exodus/exodus_blocks.h"
 #include "trismooth/mesh_io/exodus/exodus_elements.h"
@@ -31,20 +35,21 @@ class SetReader {
       : file_(file), blocks_(blocks), axes_(axes), document_(document) {}
 
   void read() {
-    const ExodusNames names(file_, "eb_prop1", "eb_names");
-    for (const ExodusBlock& block : blocks_) {
-      ListedGroup& group = groups_.emplace_back(ListedGroup{names.id(block.number), names.name(block.number), {}});
-      group.cells.resize(block.has_cells ? block.elements : 0);
-      std::iota(group.cells.begin(), group.cells.end(), static_cast<std::int32_t>(block.first_cell));
-    }
+    add_blocks();
+    const std::size_t groups_of_blocks = groups_.size();
     read_side_sets();
     add_lines();
-    for (std::size_t i = blocks_.size(); i < groups_.size(); ++i) {
+    for (std::size_t i = groups_of_blocks; i < groups_.size(); ++i) {
       std::vector<std::int32_t>& cells = groups_[i].cells;
       std::ranges::sort(cells);
       cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     }
     add_listed_groups("exodus:block", std::move(groups_), document_);
+    if (are_joined_by_name_) {
+      add_array("exodus:typed_block",
+                [this](const ExodusBlock& block, std::size_t /*i*/) { return block_names_.id(block.number); });
+    }
+    add_element_ids();
     document_.cell_sets.insert(document_.cell_sets.end(), faces_.begin(), faces_.end());
     read_element_sets();
     read_node_sets();
@@ -59,6 +64,114 @@ class SetReader {
  private:
   [[noreturn]] void fail(const std::string& set, const std::string& message) const {
     throw ReadError(file_.path(), set + " " + message);
+  }
+
+  /// Blocks are regions, but for those that differ in the type of their elements alone.
+  void add_blocks() {
+    const std::vector<std::string> keys = keys_of_blocks();
+    std::map<std::string, std::size_t> places;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const ExodusBlock& block = blocks_[i];
+      const auto [place, is_new] =
+          keys[i].empty() ? std::pair(places.end(), true) : places.try_emplace(keys[i], groups_.size());
+      if (is_new) {
+        groups_.push_back({block_names_.id(block.number), block_names_.name(block.number), {}});
+      }
+      ListedGroup& group = is_new ? groups_.back() : groups_[place->second];
+      if (!is_new && are_joined_by_name_) {
+        group.name = name_without_type(group.name);
+      }
+      const std::size_t before = group.cells.size();
+      group.cells.resize(before + (block.has_cells ? block.elements : 0));
+      std::iota(group.cells.begin() + static_cast<std::ptrdiff_t>(before), group.cells.end(),
+                static_cast<std::int32_t>(block.first_cell));
+    }
+  }
+
+  /// What blocks of one region have in common: their property, else their names but for the type of elements; empty for
+  /// blocks that are a region of their own.
+  std::vector<std::string> keys_of_blocks() {
+    std::vector<std::string> keys(blocks_.size());
+    const auto is_of_faces = [this](const ExodusBlock& block) {
+      return block.has_cells && block.elements > 0 &&
+             cell_type::dimension(document_.cells.types[block.first_cell]) == 2;
+    };
+    if (const NetcdfVariable* const property = region_property()) {
+      const std::vector<std::int64_t> regions = file_.values<std::int64_t>(*property);
+      for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        if (is_of_faces(blocks_[i]) && blocks_[i].number <= regions.size()) {
+          keys[i] = std::to_string(regions[blocks_[i].number - 1]);
+        }
+      }
+      return keys;
+    }
+    std::map<std::string, std::vector<std::size_t>> alike;
+    bool has_names = false;
+    std::set<std::string> types;
+    std::size_t of_faces = 0;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      if (is_of_faces(blocks_[i])) {
+        const std::string name = block_names_.name(blocks_[i].number);
+        has_names = has_names || !name.empty();
+        types.insert(upper_case(blocks_[i].type));
+        ++of_faces;
+        if (const std::string rest = lower_case(name_without_type(name)); !name.empty()) {
+          alike[rest].push_back(i);
+        }
+      }
+    }
+    for (const auto& [name, members] : alike) {
+      std::set<std::string> own;
+      if (members.size() > 1 &&
+          std::ranges::all_of(members, [&](std::size_t i) { return own.insert(upper_case(blocks_[i].type)).second; })) {
+        std::ranges::for_each(members, [&, &key = name](std::size_t i) { keys[i] = "name " + key; });
+        are_joined_by_name_ = true;
+      }
+    }
+    if (!has_names && of_faces > 1 && types.size() == of_faces) {
+      document_.notes.emplace_back(
+          "The element blocks have no names, and each another type of elements: if they are one region, --region-array "
+          "none frees what is between them.");
+    }
+    return keys;
+  }
+
+  const NetcdfVariable* region_property() const {
+    for (const auto& [number, property] : numbered_variables(file_, "eb_prop")) {
+      if (property->text_of("name") == exodus_region_name) {
+        return property;
+      }
+    }
+    return nullptr;
+  }
+
+  /// An array of whole numbers with value(block, element in it); 0 for the lines of side sets.
+  template <class Value>
+  void add_array(const std::string& name, const Value& value) {
+    std::vector<std::int64_t> values(document_.cells.size());
+    for (const ExodusBlock& block : blocks_) {
+      for (std::size_t i = 0; block.has_cells && i < block.elements; ++i) {
+        values[block.first_cell + i] = value(block, i);
+      }
+    }
+    document_.cell_arrays.push_back(make_data_array(name, 1, std::move(values)));
+  }
+
+  /// The ids of elements where they do not count on from 1.
+  void add_element_ids() {
+    for (const char* const name : {"elem_num_map", "elem_map"}) {
+      const NetcdfVariable* const map = file_.find(name);
+      if (map == nullptr || map->shape != std::vector{element_count()}) {
+        continue;
+      }
+      const std::vector<std::int64_t> ids = file_.values<std::int64_t>(*map);
+      std::int64_t next = 1;
+      if (!std::ranges::all_of(ids, [&next](std::int64_t id) { return id == next++; })) {
+        add_array("exodus:element_id",
+                  [&ids](const ExodusBlock& block, std::size_t i) { return ids[block.first_element + i]; });
+      }
+      return;
+    }
   }
 
   /// The numbers of a list, from 0; each is below `most`.
@@ -232,6 +345,8 @@ class SetReader {
   const std::vector<ExodusBlock>& blocks_;
   std::size_t axes_;
   MeshDocument& document_;
+  const ExodusNames block_names_{file_, "eb_prop1", "eb_names"};
+  bool are_joined_by_name_ = false;
   std::vector<ListedGroup> groups_;  ///< blocks, then side sets
   std::vector<Edge> edges_;
   std::vector<NamedSet> faces_;  ///< side sets of faces of shells

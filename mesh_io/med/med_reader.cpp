@@ -392,8 +392,32 @@ class MedReader {
       // Families tell elements apart where no groups do.
       document_.cell_arrays.push_back(make_data_array("med:family", 1, std::move(numbers)));
     }
+    read_numbers();
     if (!all_known) {
       document_.notes.emplace_back("Nodes or elements are of families that the file does not describe.");
+    }
+  }
+
+  /// The numbers of elements where they do not count on from 1; 0 where there are none.
+  void read_numbers() {
+    std::vector<std::int64_t> numbers(document_.cells.size());
+    bool count_on = true;
+    for (const Block& block : blocks_) {
+      const std::string dataset = block.group + "/NUM";
+      if (!has(dataset, Hdf5Kind::dataset)) {
+        continue;
+      }
+      const std::vector<std::int64_t> own = integers(dataset);
+      if (own.size() != block.count) {
+        continue;
+      }
+      for (std::size_t i = 0; i < block.count; ++i) {
+        numbers[block.first + i] = own[i];
+        count_on = count_on && own[i] == static_cast<std::int64_t>(block.first + i) + 1;
+      }
+    }
+    if (!count_on) {
+      document_.cell_arrays.push_back(make_data_array("med:element_number", 1, std::move(numbers)));
     }
   }
 

@@ -126,6 +126,13 @@ class MedWriter {
         of_element[static_cast<std::size_t>(element - med_elements().data())].push_back(cell);
       }
     }
+    std::size_t next = 0;
+    for (const std::vector<std::size_t>& members : of_element) {
+      for (const std::size_t cell : members) {
+        has_new_order_ = has_new_order_ || cell < next;
+        next = cell;
+      }
+    }
     for (std::size_t i = 0; i < of_element.size(); ++i) {
       if (!of_element[i].empty()) {
         write_elements_of(med_elements()[i], of_element[i]);
@@ -159,12 +166,16 @@ class MedWriter {
       }
       write_list(group + "/NOD", nodes, members.size());
     }
-    if (!families_.cell_families.empty()) {
+    const auto write_numbers = [&](const std::string& name, const auto& number_of) {
       std::vector<std::int64_t> numbers;
-      for (const std::size_t cell : members) {
-        numbers.push_back(families_.cell_families[cell]);
-      }
-      write_list(group + "/FAM", numbers, members.size());
+      std::ranges::transform(members, std::back_inserter(numbers), number_of);
+      write_list(group + name, numbers, members.size());
+    };
+    if (!families_.cell_families.empty()) {
+      write_numbers("/FAM", [this](std::size_t cell) { return families_.cell_families[cell]; });
+    }
+    if (has_new_order_) {
+      write_numbers("/NUM", [](std::size_t cell) { return static_cast<std::int64_t>(cell) + 1; });
     }
   }
 
@@ -188,6 +199,7 @@ class MedWriter {
   const MeshDocument& document_;
   MedFamilies families_;
   std::int64_t axes_ = 2;
+  bool has_new_order_ = false;  ///< elements are not in the order of cells, whose numbers they get
   const std::string mesh_name_ = "mesh";
   const std::string all_families_ = "/FAS/" + mesh_name_;
   const std::string step_ = "/ENS_MAA/" + mesh_name_ + "/-0000000000000000001-0000000000000000001";
@@ -214,7 +226,9 @@ std::vector<std::string> lost_in_med(const MeshDocument& document) {
     sentences.push_back("MED has names of groups of " + std::to_string(med_group_name_size) +
                         " characters at most, without blanks around them: changed are " + list_text(families.renamed));
   }
-  std::ranges::move(describe_new_order("MED", types, document.cells), std::back_inserter(sentences));
+  for (const std::string& sentence : describe_new_order("MED", types, document.cells)) {
+    sentences.push_back(sentence + ", under their old numbers (NUM)");
+  }
   return sentences;
 }
 

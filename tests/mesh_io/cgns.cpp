@@ -167,14 +167,118 @@ TEST_CASE("CGNS: a mesh from elsewhere gets conditions and families for its grou
   const std::string bytes = cgns.written(document);
   const MeshDocument again = cgns.read(bytes);
   CHECK(again.points == document.points);
-  CHECK(again.cells.types == std::vector<std::uint8_t>{cell_type::line, 5, 5, 5, 5, cell_type::polygon});
-  CHECK(again.cell_sets == std::vector<NamedSet>{{"upper", {2, 3, 5}}});
+  CHECK(again.cells.types == document.cells.types);
+  CHECK(again.cells.connectivity == document.cells.connectivity);
+  CHECK(again.cell_sets == std::vector<NamedSet>{{"upper", {1, 2, 5}}});
   CHECK(again.point_sets == std::vector<NamedSet>{{"supports", {0, 1}}});
-  const std::vector<std::string> lost = what_is_lost(document, FileFormat::cgns);
-  REQUIRE(lost.size() == 2);
+  std::vector<std::string> lost = what_is_lost(document, FileFormat::cgns);
+  REQUIRE(lost.size() == 1);
   CHECK(says(lost[0], "'steel/core' (as steel_core)"));
-  CHECK(says(lost[1], "by their type"));
   CHECK(cgns.written(document) == bytes);
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 1, 4});
+  lost = what_is_lost(document, FileFormat::cgns);
+  REQUIRE(lost.size() == 2);
+  CHECK(says(lost[1], "written in another order"));
+}
+
+/// A row of squares, some of which are two triangles.
+MeshDocument row_of(const std::string& kinds) {
+  MeshDocument document;
+  for (std::size_t x = 0; x <= kinds.size(); ++x) {
+    document.points.insert(document.points.end(), {static_cast<double>(x), 0, 0, static_cast<double>(x), 1, 0});
+  }
+  for (std::size_t x = 0; x < kinds.size(); ++x) {
+    const auto a = static_cast<std::int32_t>(2 * x);
+    if (kinds[x] == 'q') {
+      document.cells.append(cell_type::quad, std::vector<std::int32_t>{a, a + 2, a + 3, a + 1});
+    } else {
+      document.cells.append(cell_type::triangle, std::vector<std::int32_t>{a, a + 2, a + 3});
+      document.cells.append(cell_type::triangle, std::vector<std::int32_t>{a, a + 3, a + 1});
+    }
+  }
+  return document;
+}
+
+TEST_CASE("CGNS: triangles and quadrilaterals of one region come back as one, in their order") {
+  // In turn, and those of a type together.
+  for (const std::string& kinds : {std::string("qtqqtq"), std::string("qqqtt"), std::string("tttqq")}) {
+    MeshDocument document = row_of(kinds);
+    const std::string bytes = cgns.written(document);
+    const Hdf5Reader file("file", bytes);
+    CHECK((file.kind_of("/Base/Zone/Faces") == Hdf5Kind::group) == (kinds[0] == 'q' && kinds[1] == 't'));
+    const MeshDocument again = cgns.read(bytes);
+    CHECK(again.cells.types == document.cells.types);
+    CHECK(again.cells.connectivity == document.cells.connectivity);
+    CHECK(again.cell_arrays.empty());
+    CHECK(again.notes.empty());
+    CHECK(what_is_lost(document, FileFormat::cgns).empty());
+    // Two regions stay two.
+    std::vector<std::int32_t> materials(document.cells.size(), 1);
+    materials[0] = 2;
+    document.cell_arrays = {make_data_array("material", 1, materials)};
+    const MeshDocument regions = cgns.read(cgns.written(document));
+    CHECK(regions.cells.connectivity == document.cells.connectivity);
+    const std::vector<std::int64_t> groups = values_of<std::int64_t>(regions.cell_arrays, "cgns:group");
+    REQUIRE(groups.size() == materials.size());
+    for (std::size_t cell = 1; cell < groups.size(); ++cell) {
+      CHECK(groups[cell] == groups[1]);
+      CHECK(groups[cell] != groups[0]);
+    }
+  }
+}
+
+TEST_CASE("CGNS: sections are regions unless the type of their elements is all that tells them apart") {
+  // The names of two sections of faces, of triangles and of what is said, and the groups that they make.
+  struct Case {
+    std::string first, second;
+    std::int32_t second_type;
+    std::vector<std::string> groups;
+    bool are_joined;
+  };
+  for (const Case& sections : {Case{"Tri", "Quad", 7, {}, true},
+                               {"Elements_5", "Elements_7", 7, {}, false},
+                               {"Section1", "Section2", 7, {}, true},
+                               {"fluid_tri", "fluid_quad", 7, {}, true},
+                               {"fluid", "solid", 7, {"fluid", "solid"}, false},
+                               {"Section1", "Section2", 5, {"Section1", "Section2"}, false}}) {
+    SmallCgns file;
+    file.base(2);
+    file.zone("Z", 6, 3);
+    file.coordinate("Z", 'X', std::vector<double>{0, 1, 2, 0, 1, 2});
+    file.coordinate("Z", 'Y', std::vector<double>{0, 0, 0, 1, 1, 1});
+    file.section("Z/" + sections.first, 5, 1, 2, {1, 2, 5, 1, 5, 4});
+    if (sections.second_type == 7) {
+      file.section("Z/" + sections.second, 7, 3, 3, {2, 3, 6, 5});
+    } else {
+      file.section("Z/" + sections.second, 5, 3, 3, {2, 3, 6});
+    }
+    const MeshDocument document = cgns.read(file.bytes());
+    const DataArray* const groups = find_array(document.cell_arrays, "cgns:group");
+    std::vector<std::string> names;
+    for (std::size_t i = 0; groups != nullptr && i < groups->description->value_names.size(); ++i) {
+      names.push_back(groups->description->value_names[i].name);
+    }
+    CHECK(names == sections.groups);
+    CHECK(values_of<std::int32_t>(document.cell_arrays, "cgns:section") ==
+          (sections.are_joined ? std::vector<std::int32_t>{1, 1, 2} : std::vector<std::int32_t>{}));
+  }
+}
+
+TEST_CASE("CGNS: sections of a region are one group beside those of another, and lines keep their names") {
+  SmallCgns file;
+  file.base(2);
+  file.zone("Z", 6, 4);
+  file.coordinate("Z", 'X', std::vector<double>{0, 1, 2, 0, 1, 2});
+  file.coordinate("Z", 'Y', std::vector<double>{0, 0, 0, 1, 1, 1});
+  file.section("Z/copper TRI_3", 5, 1, 1, {1, 2, 5});
+  file.section("Z/AirTriangles", 5, 2, 2, {1, 5, 4});
+  file.section("Z/copper QUAD_4", 7, 3, 3, {2, 3, 6, 5});
+  file.section("Z/inlet", 3, 4, 4, {1, 4});
+  const MeshDocument document = cgns.read(file.bytes());
+  CHECK(values_of<std::int64_t>(document.cell_arrays, "cgns:group") == std::vector<std::int64_t>{1, 2, 1, 3});
+  CHECK(find_array(document.cell_arrays, "cgns:group")->description->value_names ==
+        std::vector<ValueName>{{1, 2, "copper"}, {2, 2, "AirTriangles"}, {3, 1, "inlet"}});
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "cgns:section") == std::vector<std::int32_t>{1, 2, 3, 4});
 }
 
 TEST_CASE("CGNS: what cannot be a mesh is refused with its place") {

@@ -139,6 +139,7 @@ TEST_CASE("Exodus: elements that are not known hold their nodes, and a note name
   plate.block(3, "SPLINE", 2, {1, 3});
   plate.block(4, "BAR2", 2, {1, 2});
   plate.block(5, "SPHERE", 1, {6});
+  plate.names("eb_names", {"left", "right"});
   const MeshDocument document = exodus.read(plate.file.bytes());
   CHECK(document.cells.types == std::vector<std::uint8_t>{9, 5, 5, 2, 3, 1});
   CHECK(document.notes ==
@@ -148,6 +149,7 @@ TEST_CASE("Exodus: elements that are not known hold their nodes, and a note name
 /// A plate of so many steps, with values of nodes and of the triangles.
 std::string with_values(std::size_t steps, const std::string& name) {
   Plate plate(2, "TRI3", steps);
+  plate.names("eb_names", {"left", "right"});
   plate.names("name_nod_var", {name});
   plate.names("name_elem_var", {"flux"});
   std::vector<double> times;
@@ -291,11 +293,42 @@ TEST_CASE("Exodus: a group of several types is a block of each, and numbers that
   groups.description = std::make_shared<const ArrayDescription>(ArrayDescription{{}, {}, {{0, 2, "all"}}, {}});
   document.cell_arrays = {groups};
   const MeshDocument read = exodus.read(exodus.written(document));
-  CHECK(read.cell_arrays[0].description->value_names == std::vector<ValueName>{{1, 2, "all"}, {2, 2, "all_1"}});
+  CHECK(values_of<std::int64_t>(read.cell_arrays, "exodus:block") == std::vector<std::int64_t>{1, 1});
+  CHECK(values_of<std::int64_t>(read.cell_arrays, "exodus:element_id") == std::vector<std::int64_t>{2, 1});
+  CHECK(read.cell_arrays[0].description->value_names == std::vector<ValueName>{{1, 2, "all"}});
+  CHECK(read.notes.empty());
   const std::vector<std::string> lost = what_is_lost(document, FileFormat::exodus);
   REQUIRE(lost.size() == 3);
-  CHECK(says(lost[1], "changed are 0 (all) to 1, 0 (all) to 2"));
-  CHECK(says(lost[2], "changed are all (as all_1)"));
+  CHECK(says(lost[1], "changed are 0 (all) to 1"));
+  CHECK(says(lost[2], "'region' keeps together: all (1, 2)"));
+  // Cells of no group are one region as well.
+  document.cell_arrays.clear();
+  const MeshDocument plain = exodus.read(exodus.written(document));
+  CHECK(values_of<std::int64_t>(plain.cell_arrays, "exodus:block") == std::vector<std::int64_t>{1, 1});
+  CHECK(plain.notes.empty());
+  CHECK(what_is_lost(document, FileFormat::exodus).size() == 1);
+}
+
+TEST_CASE(
+    "Exodus: blocks whose names differ in the type of elements alone are one region, which an array tells apart") {
+  Plate plate;
+  plate.list("eb_prop1", {30, 10});
+  plate.names("eb_names", {"plate", "plate_tri"});
+  plate.side_set(1, {1}, {1});
+  const MeshDocument document = exodus.read(plate.file.bytes());
+  CHECK(values_of<std::int64_t>(document.cell_arrays, "exodus:block") == std::vector<std::int64_t>{30, 30, 30, 1});
+  CHECK(document.cell_arrays[0].description->value_names ==
+        std::vector<ValueName>{{30, 2, "plate"}, {1, 1, "side set 1"}});
+  CHECK(values_of<std::int64_t>(document.cell_arrays, "exodus:typed_block") ==
+        std::vector<std::int64_t>{30, 10, 10, 0});
+  CHECK(document.notes.empty());
+}
+
+TEST_CASE("Exodus: blocks of different types without names are regions, and a note says what frees what is between") {
+  const MeshDocument document = exodus.read(Plate().file.bytes());
+  CHECK(values_of<std::int64_t>(document.cell_arrays, "exodus:block") == std::vector<std::int64_t>{1, 2, 2});
+  REQUIRE(document.notes.size() == 1);
+  CHECK(says(document.notes[0], "if they are one region, --region-array none frees what is between them"));
 }
 
 TEST_CASE("Exodus: nodes of curved cells and solids are in their own order, in the file and back") {
