@@ -6,7 +6,7 @@
 namespace trismooth {
 
 /// Also where the build has no HDF5 and can name the format alone.
-inline constexpr FormatDescription cgns_description{FileFormat::cgns, "cgns", "CGNS", {".cgns"},
-                                                    {.names = true},  1,      "HDF5"};
+inline constexpr FormatDescription cgns_description{
+    FileFormat::cgns, "cgns", "CGNS", {".cgns"}, {.arrays = true, .names = true}, 1, "HDF5"};
 
 }  // namespace trismooth

@@ -79,8 +79,9 @@ class CgnsReader {
       read_connectivity(zone);
     }
     finish_sets();
-    CgnsSolutions solutions = read_cgns_solutions(tree_, zones_, document_.point_count());
-    document_.point_arrays = std::move(solutions.arrays);
+    CgnsSolutions solutions = read_cgns_solutions(tree_, zones_, cell_dimension_, document_);
+    document_.point_arrays = std::move(solutions.point_arrays);
+    std::ranges::move(solutions.cell_arrays, std::back_inserter(document_.cell_arrays));
     std::ranges::move(solutions.columns, std::back_inserter(columns_));
     std::ranges::move(solutions.notes, std::back_inserter(document_.notes));
     return {std::move(document_), std::move(columns_)};

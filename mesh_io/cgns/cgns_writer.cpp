@@ -7,12 +7,17 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
+#include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/cgns/cgns_arrays.h"
 #include "trismooth/mesh_io/cgns/cgns_elements.h"
+#include "trismooth/mesh_io/document/array_components.h"
 #include "trismooth/mesh_io/document/cells/group_lists.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/hdf5/hdf5_writer.h"
@@ -20,11 +25,6 @@
 namespace trismooth {
 
 namespace {
-
-/// Characters of the name of a node.
-constexpr std::size_t most_name_size = 32;
-/// A slash stands between the names of a path.
-constexpr std::string_view no_name_characters = "/";
 
 constexpr std::array<std::string_view, 4> names_of_dimensions{"Points", "Lines", "Faces", "Solids"};
 
@@ -111,6 +111,16 @@ class CgnsWriter {
     write_coordinates();
     write_sections(sections);
     write_groups();
+    std::vector<std::size_t> rows(document_.point_count());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    write_arrays("PointData", "Vertex", plan_cgns_arrays(document_.point_arrays, ""), rows);
+    rows.clear();
+    for (const WrittenSection& section : sections) {
+      std::ranges::copy_if(section.cells, std::back_inserter(rows), [this](std::size_t cell) {
+        return cell_type::dimension(document_.cells.types[cell]) == dimension_;
+      });
+    }
+    write_arrays("CellData", "CellCenter", plan_cgns_arrays(document_.cell_arrays, lists_.array), rows);
     file_.close();
   }
 
@@ -124,8 +134,8 @@ class CgnsWriter {
   }
 
   void set_head(const std::string& path, std::string_view name, std::string_view label, std::string_view type) {
-    file_.set_attribute(path, "name", name, most_name_size + 1);
-    file_.set_attribute(path, "label", label, most_name_size + 1);
+    file_.set_attribute(path, "name", name, most_cgns_name_size + 1);
+    file_.set_attribute(path, "label", label, most_cgns_name_size + 1);
     file_.set_attribute(path, "type", type, 3);
   }
 
@@ -151,7 +161,7 @@ class CgnsWriter {
       file_.write<std::int8_t>(name, std::span(&extent, 1), std::vector<std::int8_t>(text.begin(), text.end()));
     };
     write_text("/ format", "IEEE_LITTLE_32", 15);
-    write_text("/ hdf5version", "HDF5 Version 1.8", most_name_size + 1);
+    write_text("/ hdf5version", "HDF5 Version 1.8", most_cgns_name_size + 1);
     // The first that has offsets of polygons and mixed elements.
     constexpr float version = 3.4F;
     add("/CGNSLibraryVersion", "CGNSLibraryVersion_t", "R4", std::vector<float>{version});
@@ -233,7 +243,7 @@ class CgnsWriter {
     if (lists_.names.empty()) {
       return;
     }
-    const std::vector<std::string> names = fit_names(lists_.names, most_name_size, no_name_characters).names;
+    const std::vector<std::string> names = fit_names(lists_.names, most_cgns_name_size, no_cgns_name_characters).names;
     std::map<std::pair<std::size_t, std::string_view>, std::vector<std::int32_t>> conditions;
     for (std::size_t cell = 0; cell < lists_.of_cells.size(); ++cell) {
       const int dimension = cell_type::dimension(document_.cells.types[cell]);
@@ -267,6 +277,24 @@ class CgnsWriter {
     }
   }
 
+  void write_arrays(const std::string& name, std::string_view location, const CgnsArrays& arrays,
+                    const std::vector<std::size_t>& rows) {
+    if (arrays.components.empty() || rows.empty()) {
+      return;
+    }
+    const std::string solution = zone_path_ + "/" + name;
+    make_node(solution, "FlowSolution_t", "MT");
+    add_text(solution + "/GridLocation", "GridLocation_t", location);
+    for (const CgnsComponent& values : arrays.components) {
+      with_widened_type(*values.array, [&](auto zero) {
+        using T = decltype(zero);
+        constexpr std::string_view letter = std::is_floating_point_v<T> ? "R" : "I";
+        add(solution + "/" + values.name, "DataArray_t", std::string(letter) + std::to_string(sizeof(T)),
+            component_of<T>(*values.array, values.component, rows));
+      });
+    }
+  }
+
   std::string_view location_of(int dimension) const {
     return dimension == dimension_ ? "CellCenter" : dimension == 2 ? "FaceCenter" : "EdgeCenter";
   }
@@ -287,6 +315,25 @@ void write_cgns(const std::filesystem::path& path, const MeshDocument& document,
   CgnsWriter(path, document).write();
 }
 
+namespace {
+
+/// Cells that are written and are not of the highest dimension.
+std::size_t count_cells_below(const CellList& cells) {
+  std::array<std::size_t, names_of_dimensions.size()> counts{};
+  std::size_t all = 0;
+  for (const WrittenSection& section : sections_of(cells)) {
+    for (const std::size_t cell : section.cells) {
+      ++counts.at(static_cast<std::size_t>(cell_type::dimension(cells.types[cell])));
+      ++all;
+    }
+  }
+  const auto highest =
+      std::ranges::find_if(counts.rbegin(), counts.rend(), [](std::size_t count) { return count > 0; });
+  return highest == counts.rend() ? 0 : all - *highest;
+}
+
+}  // namespace
+
 std::vector<std::string> lost_in_cgns(const MeshDocument& document) {
   std::vector<std::uint8_t> types;
   for (const CgnsElement& element : cgns_elements()) {
@@ -298,12 +345,33 @@ std::vector<std::string> lost_in_cgns(const MeshDocument& document) {
   const GroupLists lists = list_groups(document);
   std::vector<std::string> sentences =
       describe_lost_cells("CGNS", "points, lines, faces and solids", types, document.cells);
-  std::ranges::move(describe_lost_arrays("CGNS", document, {.cell = lists.array}), std::back_inserter(sentences));
-  if (const FittedNames names = fit_names(lists.names, most_name_size, no_name_characters); !names.renamed.empty()) {
-    sentences.push_back("CGNS has names of " + std::to_string(most_name_size) +
+  const CgnsArrays of_points = plan_cgns_arrays(document.point_arrays, "");
+  const CgnsArrays of_cells = plan_cgns_arrays(document.cell_arrays, lists.array);
+  MeshDocument others;
+  others.field_arrays = document.field_arrays;
+  std::ranges::move(describe_lost_arrays("CGNS", others), std::back_inserter(sentences));
+  std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
+                       [&lists](const DataArray& array) { return array.name != lists.array; });
+  std::ranges::move(describe_lost_names("CGNS", others), std::back_inserter(sentences));
+  if (const std::size_t cells = count_cells_below(document.cells); cells > 0 && !of_cells.components.empty()) {
+    sentences.push_back("CGNS has values of the cells of the highest dimension: those of cell arrays at " +
+                        counted(cells, "other cell are", "other cells are") + " not written");
+  }
+  std::vector<std::string> split = of_points.split;
+  split.insert(split.end(), of_cells.split.begin(), of_cells.split.end());
+  if (!split.empty()) {
+    sentences.push_back(
+        "CGNS has one number for a vertex or cell, and vectors: arrays of more components become one each: " +
+        list_text(split));
+  }
+  std::vector<std::string> renamed = fit_names(lists.names, most_cgns_name_size, no_cgns_name_characters).renamed;
+  renamed.insert(renamed.end(), of_points.renamed.begin(), of_points.renamed.end());
+  renamed.insert(renamed.end(), of_cells.renamed.begin(), of_cells.renamed.end());
+  if (!renamed.empty()) {
+    sentences.push_back("CGNS has names of " + std::to_string(most_cgns_name_size) +
                         " characters at most, without slashes and without "
                         "blanks around them: changed are " +
-                        list_text(names.renamed));
+                        list_text(renamed));
   }
   if (!is_in_order(sections_of(document.cells))) {
     sentences.emplace_back(

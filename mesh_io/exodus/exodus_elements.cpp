@@ -59,21 +59,21 @@ struct Beginning {
   ExodusFamily family;
 };
 
-constexpr auto beginnings = std::to_array<Beginning>({{"TRI", ExodusFamily::triangle},
-                                                      {"QUAD", ExodusFamily::quadrilateral},
-                                                      {"BAR", ExodusFamily::line},
-                                                      {"BEAM", ExodusFamily::line},
-                                                      {"TRUSS", ExodusFamily::line},
-                                                      {"EDGE", ExodusFamily::line},
-                                                      {"ROD", ExodusFamily::line},
-                                                      {"LINE", ExodusFamily::line},
-                                                      {"SPHERE", ExodusFamily::point},
-                                                      {"CIRCLE", ExodusFamily::point},
-                                                      {"POINT", ExodusFamily::point},
-                                                      {"TET", ExodusFamily::tetrahedron},
-                                                      {"PYR", ExodusFamily::pyramid},
-                                                      {"WEDGE", ExodusFamily::wedge},
-                                                      {"HEX", ExodusFamily::hexahedron}});
+constexpr auto type_beginnings = std::to_array<Beginning>({{"TRI", ExodusFamily::triangle},
+                                                           {"QUAD", ExodusFamily::quadrilateral},
+                                                           {"BAR", ExodusFamily::line},
+                                                           {"BEAM", ExodusFamily::line},
+                                                           {"TRUSS", ExodusFamily::line},
+                                                           {"EDGE", ExodusFamily::line},
+                                                           {"ROD", ExodusFamily::line},
+                                                           {"LINE", ExodusFamily::line},
+                                                           {"SPHERE", ExodusFamily::point},
+                                                           {"CIRCLE", ExodusFamily::point},
+                                                           {"POINT", ExodusFamily::point},
+                                                           {"TET", ExodusFamily::tetrahedron},
+                                                           {"PYR", ExodusFamily::pyramid},
+                                                           {"WEDGE", ExodusFamily::wedge},
+                                                           {"HEX", ExodusFamily::hexahedron}});
 
 /// A shell in the plane is a line.
 ExodusFamily family_of_shell(std::size_t nodes, std::size_t axes) {
@@ -89,8 +89,8 @@ ExodusFamily family_of(std::string_view type, std::size_t nodes, std::size_t axe
     return family_of_shell(nodes, axes);
   }
   const auto* const found = std::ranges::find_if(
-      beginnings, [&name](const Beginning& beginning) { return name.starts_with(beginning.text); });
-  return found == beginnings.end() ? ExodusFamily::none : found->family;
+      type_beginnings, [&name](const Beginning& beginning) { return name.starts_with(beginning.text); });
+  return found == type_beginnings.end() ? ExodusFamily::none : found->family;
 }
 
 }  // namespace

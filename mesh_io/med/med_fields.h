@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,28 @@
 
 namespace trismooth {
 
-/// The fields of a mesh in a MED file.
-struct MedFields {
-  std::vector<DataArray> arrays;    ///< those that have values at all of its nodes
-  std::vector<Hdf5Column> columns;  ///< where these values are
-  std::vector<std::string> notes;   ///< of all others, that they are kept
+/// Instead of a list of nodes or elements: all.
+inline constexpr std::string_view med_all_entities = "MED_NO_PROFILE_INTERNAL";
+
+/// The elements of a type, which are cells that follow each other.
+struct MedBlock {
+  std::string type;   ///< "TR3"
+  std::string group;  ///< that has them
+  std::size_t first;  ///< cell
+  std::size_t count;
 };
 
-/// Reads the fields (/CHA) of the mesh of that name, which has so many nodes. Complexity: linear in their values.
-MedFields read_med_fields(const Hdf5Reader& file, const std::string& mesh, std::size_t nodes, MemberBudget& budget);
+/// The fields of a mesh in a MED file.
+struct MedFields {
+  std::vector<DataArray> point_arrays;  ///< those that have values at all of its nodes
+  std::vector<DataArray> cell_arrays;   ///< those at all elements of a type: others have 0, or no number
+  std::vector<Hdf5Column> columns;      ///< where the values at nodes are
+  std::vector<std::string> notes;       ///< of all others, that they are kept
+};
+
+/// Reads the fields (/CHA) of the mesh of that name, whose nodes, blocks of elements and arrays are those of the
+/// document. Complexity: linear in their values.
+MedFields read_med_fields(const Hdf5Reader& file, const std::string& mesh, std::span<const MedBlock> blocks,
+                          const MeshDocument& document, MemberBudget& budget);
 
 }  // namespace trismooth

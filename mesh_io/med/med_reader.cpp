@@ -103,8 +103,9 @@ class MedReader {
     read_nodes();
     read_elements();
     read_groups();
-    MedFields fields = read_med_fields(file_, mesh_name_, document_.point_count(), budget_);
-    std::ranges::move(fields.arrays, std::back_inserter(document_.point_arrays));
+    MedFields fields = read_med_fields(file_, mesh_name_, blocks_, document_, budget_);
+    std::ranges::move(fields.point_arrays, std::back_inserter(document_.point_arrays));
+    std::ranges::move(fields.cell_arrays, std::back_inserter(document_.cell_arrays));
     std::ranges::move(fields.columns, std::back_inserter(columns_));
     std::ranges::move(fields.notes, std::back_inserter(document_.notes));
     return {std::move(document_), std::move(columns_)};
@@ -266,7 +267,7 @@ class MedReader {
         fail_at(group, "has no nodes of its elements (NOD)");
       }
       element.nodes == 0 ? read_polygons(group) : read_elements_of(element, group);
-      blocks_.push_back({group, first, document_.cells.size() - first});
+      blocks_.push_back({std::string(element.name), group, first, document_.cells.size() - first});
     }
   }
 
@@ -375,7 +376,7 @@ class MedReader {
                          [](const NamedSet& set) { return !set.members.empty(); });
     GroupMembers of_elements(read_families(all + "/ELEME"));
     std::vector<std::int64_t> numbers(document_.cells.size());
-    for (const Block& block : blocks_) {
+    for (const MedBlock& block : blocks_) {
       const std::vector<std::int64_t> families = families_in(block.group, block.count);
       all_known &= of_elements.add(families, block.first, budget_);
       std::ranges::copy(families, numbers.begin() + static_cast<std::ptrdiff_t>(block.first));
@@ -402,7 +403,7 @@ class MedReader {
   void read_numbers() {
     std::vector<std::int64_t> numbers(document_.cells.size());
     bool count_on = true;
-    for (const Block& block : blocks_) {
+    for (const MedBlock& block : blocks_) {
       const std::string dataset = block.group + "/NUM";
       if (!has(dataset, Hdf5Kind::dataset)) {
         continue;
@@ -421,20 +422,13 @@ class MedReader {
     }
   }
 
-  /// The elements of a type.
-  struct Block {
-    std::string group;
-    std::size_t first;
-    std::size_t count;
-  };
-
   const std::filesystem::path& path_;
   Hdf5Reader file_;
   MemberBudget budget_;
   std::string mesh_name_;
   std::string mesh_;
   std::string step_;
-  std::vector<Block> blocks_;
+  std::vector<MedBlock> blocks_;
   MeshDocument document_;
   std::vector<Hdf5Column> columns_;
 };

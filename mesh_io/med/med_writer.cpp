@@ -5,21 +5,25 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/document/array_components.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/hdf5/hdf5_writer.h"
+#include "trismooth/mesh_io/med/med_arrays.h"
 #include "trismooth/mesh_io/med/med_elements.h"
 #include "trismooth/mesh_io/med/med_families.h"
+#include "trismooth/mesh_io/med/med_fields.h"
 
 namespace trismooth {
 
 namespace {
 
-constexpr std::string_view all_entities = "MED_NO_PROFILE_INTERNAL";
 /// No step in time.
 constexpr std::int64_t no_step = -1;
 
@@ -36,6 +40,9 @@ class MedWriter {
     set(all_families_ + "/FAMILLE_ZERO", {{"NUM", 0}});
     write_families("NOEUD", families_.of_points);
     write_families("ELEME", families_.of_cells);
+    for (const MedField& field : plan_med_fields(document_, families_.array).fields) {
+      write_field(field);
+    }
     file_.close();
   }
 
@@ -102,7 +109,7 @@ class MedWriter {
   void write_nodes() {
     const std::string nodes = step_ + "/NOE";
     set(nodes, {{"CGT", 1}, {"CGS", 1}});
-    set_text(nodes, "PFL", all_entities);
+    set_text(nodes, "PFL", med_all_entities);
     const std::size_t count = document_.point_count();
     std::vector<double> by_axis;
     by_axis.reserve(count * static_cast<std::size_t>(axes_));
@@ -120,7 +127,8 @@ class MedWriter {
   void write_elements() {
     const CellList& cells = document_.cells;
     set(step_ + "/MAI", {{"CGT", 1}});
-    std::vector<std::vector<std::size_t>> of_element(med_elements().size());
+    std::vector<std::vector<std::size_t>>& of_element = cells_of_element_;
+    of_element.resize(med_elements().size());
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
       if (const MedElement* const element = med_element_of_cell(cells.types[cell], cells[cell].size())) {
         of_element[static_cast<std::size_t>(element - med_elements().data())].push_back(cell);
@@ -144,7 +152,7 @@ class MedWriter {
     const CellList& cells = document_.cells;
     const std::string group = step_ + "/MAI/" + std::string(element.name);
     set(group, {{"CGT", 1}, {"CGS", 1}, {"GEO", element.number}});
-    set_text(group, "PFL", all_entities);
+    set_text(group, "PFL", med_all_entities);
     std::vector<std::int64_t> nodes;
     if (element.nodes == 0) {
       std::vector<std::int64_t> begins{1};
@@ -195,9 +203,72 @@ class MedWriter {
     }
   }
 
+  /// Of one step, which is none in time.
+  void write_field(const MedField& field) {
+    const std::size_t points = field.at_points == nullptr ? 0 : document_.point_count();
+    const bool is_at_cells =
+        field.at_cells != nullptr &&
+        std::ranges::any_of(cells_of_element_, [](const std::vector<std::size_t>& cells) { return !cells.empty(); });
+    if (points == 0 && !is_at_cells) {
+      return;
+    }
+    const DataArray& array = field.any();
+    const ScalarType type = med_field_type(array);
+    // MED's own numbers of these.
+    const std::int64_t number = type == ScalarType::float64 ? 6 : type == ScalarType::int32 ? 24 : 26;
+    const std::string group = "/CHA/" + field.name;
+    set(group, {{"NCO", static_cast<std::int64_t>(array.components)}, {"TYP", number}});
+    set_text(group, "MAI", mesh_name_);
+    constexpr std::size_t name_size = 16;
+    std::string names;
+    for (std::size_t i = 0; i < array.components; ++i) {
+      const ArrayDescription* const description = array.description.get();
+      const bool has_name = description != nullptr && i < description->component_names.size();
+      std::string name = has_name ? description->component_names[i] : std::string();
+      name.resize(name_size, ' ');
+      names += name;
+    }
+    set_text(group, "NOM", names);
+    set_text(group, "UNI", std::string(name_size * array.components, ' '));
+    set_text(group, "UNT", "");
+    const std::string step = group + "/-0000000000000000001-0000000000000000001";
+    set(step, {{"NDT", no_step}, {"NOR", no_step}, {"RDT", no_step}, {"ROR", no_step}});
+    file_.set_attribute(step, "PDT", 0.0);
+    if (points > 0) {
+      std::vector<std::size_t> rows(points);
+      std::iota(rows.begin(), rows.end(), std::size_t{0});
+      write_values(step + "/NOE", *field.at_points, rows);
+    }
+    for (std::size_t i = 0; is_at_cells && i < cells_of_element_.size(); ++i) {
+      if (!cells_of_element_[i].empty()) {
+        write_values(step + "/MAI." + std::string(med_elements()[i].name), *field.at_cells, cells_of_element_[i]);
+      }
+    }
+  }
+
+  void write_values(const std::string& support, const DataArray& array, const std::vector<std::size_t>& rows) {
+    file_.make_group(support);
+    set_text(support, "GAU", "");
+    set_text(support, "PFL", med_all_entities);
+    const std::string profile = support + "/" + std::string(med_all_entities);
+    set(profile, {{"NBR", std::ssize(rows)}, {"NGA", 1}});
+    set_text(profile, "GAU", "");
+    with_widened_type(array, [&](auto zero) {
+      using T = std::conditional_t<std::is_floating_point_v<decltype(zero)>, double, decltype(zero)>;
+      std::vector<T> values;
+      for (std::size_t i = 0; i < array.components; ++i) {
+        const std::vector<T> component = component_of<T>(array, i, rows);
+        values.insert(values.end(), component.begin(), component.end());
+      }
+      const std::uint64_t extent = values.size();
+      file_.write<T>(profile + "/CO", std::span(&extent, 1), values);
+    });
+  }
+
   Hdf5Writer file_;
   const MeshDocument& document_;
   MedFamilies families_;
+  std::vector<std::vector<std::size_t>> cells_of_element_;  ///< in the order in which they are written
   std::int64_t axes_ = 2;
   bool has_new_order_ = false;  ///< elements are not in the order of cells, whose numbers they get
   const std::string mesh_name_ = "mesh";
@@ -221,7 +292,16 @@ std::vector<std::string> lost_in_med(const MeshDocument& document) {
   const MedFamilies families = plan_med_families(document);
   std::vector<std::string> sentences =
       describe_lost_cells("MED", "points, lines, faces and solids", types, document.cells);
-  std::ranges::move(describe_lost_arrays("MED", document, {.cell = families.array}), std::back_inserter(sentences));
+  MeshDocument others;
+  others.field_arrays = document.field_arrays;
+  std::ranges::move(describe_lost_arrays("MED", others), std::back_inserter(sentences));
+  std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
+                       [&families](const DataArray& array) { return array.name != families.array; });
+  std::ranges::move(describe_lost_names("MED", others), std::back_inserter(sentences));
+  if (const MedFieldPlan plan = plan_med_fields(document, families.array); !plan.renamed.empty()) {
+    sentences.push_back("MED has names of fields of " + std::to_string(med_field_name_size) +
+                        " characters at most, each once and without slashes: changed are " + list_text(plan.renamed));
+  }
   if (!families.renamed.empty()) {
     sentences.push_back("MED has names of groups of " + std::to_string(med_group_name_size) +
                         " characters at most, without blanks around them: changed are " + list_text(families.renamed));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #ifdef TRISMOOTH_HAS_HDF5
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -139,11 +140,13 @@ TEST_CASE("CGNS: solutions at vertices are point arrays, and change in their pla
     file.node("/B/Plate/Cells", "FlowSolution_t", "MT");
     file.text("/B/Plate/Cells/GridLocation", "GridLocation_t", "CellCenter");
     file.values("/B/Plate/Cells/Density", "DataArray_t", "R8", std::vector<double>{1, 2, 3, 4});
+    file.values("/B/Plate/Cells/Speed", "DataArray_t", "R8", std::vector<double>{1, 2, 3});
   }));
   REQUIRE(document.point_arrays.size() == 2);
+  CHECK(values_of<double>(document.cell_arrays, "Density") == std::vector<double>{1, 2, 3, 4});
   REQUIRE(document.notes.size() == 1);
-  CHECK(says(document.notes[0], "Solutions that have no numbers at all vertices are kept in CGNS output only: "));
-  CHECK(says(document.notes[0], "Density"));
+  CHECK(document.notes[0] ==
+        "Solutions that have no numbers at all vertices or all cells are kept in CGNS output only: Speed.");
   for (DataArray& array : document.point_arrays) {
     if (array.type == ScalarType::float32) {
       CHECK(array.as<float>()[4] == 6);
@@ -279,6 +282,41 @@ TEST_CASE("CGNS: sections of a region are one group beside those of another, and
   CHECK(find_array(document.cell_arrays, "cgns:group")->description->value_names ==
         std::vector<ValueName>{{1, 2, "copper"}, {2, 2, "AirTriangles"}, {3, 1, "inlet"}});
   CHECK(values_of<std::int32_t>(document.cell_arrays, "cgns:section") == std::vector<std::int32_t>{1, 2, 3, 4});
+}
+
+TEST_CASE("CGNS: point and cell arrays are solutions, and come back as they were") {
+  MeshDocument document = row_of("qtq");
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
+  const std::vector<double> flow{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  document.point_arrays = {make_data_array("flow", 2, flow),
+                           make_data_array("heat", 1, std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7.5F})};
+  document.cell_arrays = {
+      make_data_array("load", 3, std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 0, 0, 0}),
+      make_data_array("count", 1, std::vector<std::uint8_t>{5, 4, 3, 2, 1}),
+      make_data_array("a/b", 4, std::vector<float>(20, 1))};
+  MeshDocument again = cgns.read(cgns.written(document));
+  CHECK(values_of<double>(again.point_arrays, "flow") == flow);
+  CHECK(find_array(again.point_arrays, "flow")->components == 2);
+  CHECK(values_of<float>(again.point_arrays, "heat") == std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7.5F});
+  std::vector<double> load = values_of<double>(again.cell_arrays, "load");
+  REQUIRE(load.size() == 15);
+  CHECK(std::isnan(load.back()));
+  load.resize(12);
+  CHECK(load == std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+  CHECK(values_of<std::int32_t>(again.cell_arrays, "count") == std::vector<std::int32_t>{5, 4, 3, 2, 0});
+  CHECK(again.notes.empty());
+  const std::vector<std::string> lost = what_is_lost(document, FileFormat::cgns);
+  REQUIRE(lost.size() == 3);
+  CHECK(says(lost[0], "those of cell arrays at 1 other cell are not written"));
+  CHECK(says(lost[1], "a/b (a/b_1 to a/b_4)"));
+  CHECK(says(lost[2], "'a/b_1' (as a_b_1)"));
+  // A component changes in its place.
+  std::vector<double> changed = flow;
+  changed[3] = 30;
+  for (DataArray& array : again.point_arrays) {
+    array = array.name == "flow" ? make_data_array("flow", 2, changed) : array;
+  }
+  CHECK(values_of<double>(cgns.read(cgns.written(again)).point_arrays, "flow") == changed);
 }
 
 TEST_CASE("CGNS: what cannot be a mesh is refused with its place") {

@@ -182,6 +182,13 @@ TEST_CASE("MED: fields at all nodes are point arrays, and change in their places
     add("stress", "plate");
     file.group("/CHA/stress/1");
     add_values("/CHA/stress/1/MAI.TR3", {1, 2, 3, 4});
+    add("gauss", "plate");
+    file.group("/CHA/gauss/1");
+    add_values("/CHA/gauss/1/MAI.TR3", {1, 2, 3, 4, 5, 6, 7, 8});
+    file.attribute("/CHA/gauss/1/MAI.TR3/MED_NO_PROFILE_INTERNAL", "NGA", 2);
+    add("part", "plate");
+    file.group("/CHA/part/1");
+    add_values("/CHA/part/1/MAI.TR3", {1, 2, 3});
     add("elsewhere", "another");
     file.group("/CHA/elsewhere/1");
     add_values("/CHA/elsewhere/1/NOE", {1});
@@ -191,8 +198,11 @@ TEST_CASE("MED: fields at all nodes are point arrays, and change in their places
   CHECK(values_of<double>(document.point_arrays, "flow") == std::vector<double>{1, 10, 2, 20, 3, 30, 4, 40, 5, 50});
   CHECK(values_of<double>(document.point_arrays, "heat[0] - 0.5") == std::vector<double>{1, 1, 1, 1, 1});
   CHECK(values_of<double>(document.point_arrays, "heat[1] - 1") == std::vector<double>{1, 1, 1, 1, 2});
+  CHECK(values_of<double>(document.cell_arrays, "stress") == std::vector<double>{1, 2, 3, 4});
   REQUIRE(document.notes.size() == 1);
-  CHECK(document.notes[0] == "Fields that have no numbers at all nodes are kept in MED output only: stress.");
+  CHECK(document.notes[0] ==
+        "Fields that have no numbers at all nodes, or at all elements of a type, are kept in MED output only: gauss, "
+        "part.");
   CHECK(writes_values_of(document, FileFormat::med, "flow"));
   CHECK_FALSE(writes_values_of(document, FileFormat::med, "stress"));
   for (DataArray& array : document.point_arrays) {
@@ -240,6 +250,34 @@ TEST_CASE("MED: a mesh from elsewhere gets families for its groups, sets and nam
   CHECK(says(lost[1], "by their type: they are written in another order, under their old numbers (NUM)"));
   // The same bytes each time.
   CHECK(med.written(document) == bytes);
+}
+
+TEST_CASE("MED: point and cell arrays are fields, and come back as they were") {
+  MeshDocument document;
+  document.points = plate_points;
+  document.cells.append(cell_type::quad, std::vector<std::int32_t>{0, 1, 2, 3});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 1, 4});
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
+  document.point_arrays = {make_data_array("heat", 1, std::vector<float>{0, 1, 2, 3, 4.5F}),
+                           make_data_array("flow/in", 2, std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9})};
+  document.cell_arrays = {make_data_array("heat", 1, std::vector<double>{7, 8, 9}),
+                          make_data_array("count", 1, std::vector<std::uint8_t>{3, 2, 1})};
+  const MeshDocument again = med.read(med.written(document));
+  CHECK(again.cells.types == std::vector<std::uint8_t>{cell_type::line, 5, 9});
+  CHECK(values_of<double>(again.point_arrays, "heat") == std::vector<double>{0, 1, 2, 3, 4.5});
+  CHECK(values_of<double>(again.point_arrays, "flow_in") == std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  CHECK(values_of<double>(again.cell_arrays, "heat") == std::vector<double>{9, 8, 7});
+  CHECK(values_of<std::int32_t>(again.cell_arrays, "count") == std::vector<std::int32_t>{1, 2, 3});
+  CHECK(again.notes.empty());
+  CHECK(writes_values_of(again, FileFormat::med, "heat"));
+  const std::vector<std::string> lost = what_is_lost(document, FileFormat::med);
+  REQUIRE(lost.size() == 2);
+  CHECK(says(lost[0],
+             "names of fields of 64 characters at most, each once and without slashes: changed are 'flow/in' "
+             "(as flow_in)"));
+  // What is read of some elements alone.
+  document.cell_arrays.clear();
+  CHECK(med.read(med.written(document)).cell_arrays.size() == 1);
 }
 
 TEST_CASE("MED: a mesh in space keeps z, a flat one has two axes") {

@@ -148,6 +148,70 @@ class Containers(tool.ToolTest):
                 found.update(zip(elements[name]["NUM"][()].tolist(), map(tuple, table.tolist())))
         self.assertEqual([found[number] for number in sorted(found)], cells)
 
+    def test_arrays_reach_every_reader(self):
+        points, cells, _ = plate(False)
+        quads = [cell for cell in cells if len(cell) == 4]
+        triangles = [cell for cell in cells if len(cell) == 3]
+        heat = numpy.arange(len(points)) / 8
+        flow = numpy.column_stack([heat, -heat, 2 * heat])
+        load = [numpy.arange(len(quads)) + 0.5, -numpy.arange(len(triangles)) - 0.5]
+        # At a height: of bases of two dimensions VTK puts no vectors together.
+        mesh = meshio.Mesh(numpy.array(points) + [0, 0, 1.0], [("quad", numpy.array(quads)), ("triangle", numpy.array(triangles))],
+                           point_data={"heat": heat, "flow": flow}, cell_data={"load": load})
+        meshio.write(self.path("in.vtu"), mesh)
+        self.write("all.txt", "\n".join(map(str, range(len(points)))))
+        self.smooth("in.vtu", "out.med")
+        back = meshio.read(self.path("out.med"))
+        numpy.testing.assert_array_equal(back.point_data["heat"], heat)
+        numpy.testing.assert_array_equal(back.point_data["flow"], flow)
+        for block, values in zip(back.cells, back.cell_data["load"]):
+            numpy.testing.assert_array_equal(values, load[0 if block.type == "quad" else 1])
+        gmsh.initialize(interruptible=False)
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            gmsh.open(self.path("out.med"))
+            self.assertEqual(sorted(gmsh.option.getString(f"View[{i}].Name") for i in range(len(gmsh.view.getTags()))),
+                             ["flow", "heat", "load"])
+        finally:
+            gmsh.finalize()
+        self.smooth("in.vtu", "out.cgns")
+        with h5py.File(self.path("out.cgns")) as file:
+            numpy.testing.assert_array_equal(file["Base/Zone/PointData/heat/ data"][()], heat)
+            numpy.testing.assert_array_equal(file["Base/Zone/PointData/flowZ/ data"][()], flow[:, 2])
+            numpy.testing.assert_array_equal(file["Base/Zone/CellData/load/ data"][()], numpy.concatenate(load))
+        reader = vtkCGNSReader()
+        reader.SetFileName(self.path("out.cgns"))
+        reader.UpdateInformation()
+        reader.EnableAllPointArrays()
+        reader.EnableAllCellArrays()
+        reader.Update()
+        grid = reader.GetOutput().GetBlock(0).GetBlock(0)
+        numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetPointData().GetArray("flow")), flow)
+        numpy.testing.assert_array_equal(vtk_to_numpy(grid.GetCellData().GetArray("load")), numpy.concatenate(load))
+        for extension in ("med", "cgns"):
+            self.smooth("out." + extension, "again.vtu")
+            again = meshio.read(self.path("again.vtu"))
+            numpy.testing.assert_array_equal(again.point_data["flow"], flow)
+            values = {block.type: own for block, own in zip(again.cells, again.cell_data["load"])}
+            numpy.testing.assert_array_equal(values["quad"], load[0])
+            numpy.testing.assert_array_equal(values["triangle"], load[1])
+
+    def test_fields_of_points_follow_the_mesh_in_their_places(self):
+        points, cells, _ = plate(True)
+        mesh = meshio.Mesh(numpy.array(points, dtype=float), [("quad", numpy.array([c for c in cells if len(c) == 4])),
+                                                              ("triangle", numpy.array([c for c in cells if len(c) == 3]))],
+                           point_data={"heat": numpy.array(points)[:, 0] * 2 + 1})
+        meshio.write(self.path("in.vtu"), mesh)
+        self.write("all.txt", "\n".join(map(str, range(len(points)))))
+        for extension in ("med", "cgns"):
+            with self.subTest(extension):
+                self.smooth("in.vtu", "in." + extension)
+                self.run_tool("smooth", "in." + extension, "out." + extension, "--fields", "interpolate")
+                self.run_tool("smooth", "out." + extension, "out.vtu", "--fixed-ids", "all.txt")
+                after = meshio.read(self.path("out.vtu"))
+                self.assertGreater(numpy.count_nonzero(after.points[:, 0] != mesh.points[:, 0]), 20)
+                numpy.testing.assert_allclose(after.point_data["heat"], after.points[:, 0] * 2 + 1, rtol=0, atol=1e-9)
+
     def test_blocks_of_meshio_that_have_no_names_are_told(self):
         points, cells, _ = plate(False)
         meshio.write(self.path("in.e"), meshio.Mesh(numpy.array(points, dtype=float), [
