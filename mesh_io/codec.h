@@ -58,14 +58,14 @@ struct Codec {
 /// VTK, MED and CGNS without HDF5) have a description and no functions.
 extern const Codec off_codec, obj_codec, ply_codec, stl_codec, vtk_legacy_codec, vtu_codec, vtp_codec, msh_codec,
     medit_codec, su2_codec, inp_codec, adcirc_codec, sms_codec, freefem_codec, mfem_codec, triangle_codec,
-    nastran_codec, unv_codec, xdmf_codec, exodus_codec, ugrid_codec, med_codec, cgns_codec;
+    nastran_codec, unv_codec, xdmf_codec, exodus_codec, ugrid_codec, med_codec, cgns_codec, selafin_codec;
 
 /// In the order of FileFormat.
-inline constexpr std::array all_codecs{&off_codec,      &obj_codec,     &ply_codec, &stl_codec,     &vtk_legacy_codec,
-                                       &vtu_codec,      &vtp_codec,     &msh_codec, &medit_codec,   &su2_codec,
-                                       &inp_codec,      &adcirc_codec,  &sms_codec, &freefem_codec, &mfem_codec,
-                                       &triangle_codec, &nastran_codec, &unv_codec, &xdmf_codec,    &exodus_codec,
-                                       &ugrid_codec,    &med_codec,     &cgns_codec};
+inline constexpr std::array all_codecs{&off_codec,      &obj_codec,     &ply_codec,  &stl_codec,     &vtk_legacy_codec,
+                                       &vtu_codec,      &vtp_codec,     &msh_codec,  &medit_codec,   &su2_codec,
+                                       &inp_codec,      &adcirc_codec,  &sms_codec,  &freefem_codec, &mfem_codec,
+                                       &triangle_codec, &nastran_codec, &unv_codec,  &xdmf_codec,    &exodus_codec,
+                                       &ugrid_codec,    &med_codec,     &cgns_codec, &selafin_codec};
 
 constexpr const Codec& codec_of(FileFormat format) {
   return *all_codecs[static_cast<std::size_t>(format)];

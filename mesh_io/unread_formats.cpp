@@ -17,8 +17,6 @@ namespace trismooth {
 
 namespace {
 
-using namespace std::string_view_literals;
-
 struct ExtensionOfUnread {
   std::string_view extension;
   UnreadFormat format;
@@ -27,7 +25,6 @@ struct ExtensionOfUnread {
 constexpr UnreadFormat fluent{"Ansys Fluent", "meshio convert --input-format ansys in.msh out.vtu"};
 constexpr UnreadFormat netgen{"Netgen", "meshio convert in.vol out.vtu"};
 constexpr UnreadFormat netcdf{"NetCDF without a mesh of Exodus II or UGRID", ""};
-constexpr UnreadFormat selafin{"Selafin (Telemac)", ""};
 constexpr UnreadFormat mike{"MIKE (DHI)", ""};
 constexpr UnreadFormat jigsaw{"JIGSAW", ""};
 constexpr UnreadFormat utf_16{"text in UTF-16", "iconv -f UTF-16 -t UTF-8 in.off > out.off"};
@@ -37,8 +34,6 @@ constexpr auto by_extension = std::to_array<ExtensionOfUnread>({
     {".vol", netgen},
     {".h5", {"HDF5", ""}},
     {".hdf5", {"HDF5", ""}},
-    {".slf", selafin},
-    {".sel", selafin},
     {".dfsu", mike},
     {".cas", fluent},
 });
@@ -49,12 +44,6 @@ bool begins_as_fluent(std::string_view head) {
                            (head[3] == '"' || ('A' <= (head[3] & ~0x20) && (head[3] & ~0x20) <= 'Z'));
   return has_comment || head.starts_with("(0\"") || head.starts_with("(1 \"") || head.starts_with("(2 2)") ||
          head.starts_with("(2 3)");
-}
-
-/// Records of Fortran, each between its lengths; the first is a title of 80 characters.
-bool begins_as_selafin(std::string_view bytes) {
-  constexpr std::string_view length = "\0\0\0\x50"sv;
-  return bytes.starts_with(length) && bytes.size() > 88 && bytes.substr(84, 4) == length;
 }
 
 /// A first line of whole numbers and a projection: "100079 1000 28905 UTM-33", and without the first two in older
@@ -111,9 +100,6 @@ std::optional<UnreadFormat> recognise_unread_format(std::string_view bytes) {
   }
   if (begins_as_utf_16(bytes)) {
     return utf_16;
-  }
-  if (begins_as_selafin(bytes)) {
-    return selafin;
   }
   if (begins_as_mike(head)) {
     return mike;

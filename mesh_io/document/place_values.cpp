@@ -35,14 +35,22 @@ std::string_view name_of_place_value(PlaceValue value) {
   return value == PlaceValue::depth ? "depth" : "elevation";
 }
 
+/// With those of TELEMAC, which is English or French.
+std::vector<std::string_view> names_of_place_value(PlaceValue value) {
+  return value == PlaceValue::depth ? std::vector<std::string_view>{"depth"}
+                                    : std::vector<std::string_view>{"elevation", "BOTTOM", "FOND"};
+}
+
 }  // namespace
 
 PlaceValues find_place_values(const MeshDocument& document, PlaceValue wanted) {
   const PlaceValue other = wanted == PlaceValue::depth ? PlaceValue::elevation : PlaceValue::depth;
   for (const PlaceValue value : {wanted, other}) {
-    const DataArray* const array = find_array_loosely(document.point_arrays, name_of_place_value(value));
-    if (array != nullptr && holds_place_values(*array)) {
-      return values_from(*array, value != wanted);
+    for (const std::string_view name : names_of_place_value(value)) {
+      const DataArray* const array = find_array_loosely(document.point_arrays, name);
+      if (array != nullptr && holds_place_values(*array)) {
+        return values_from(*array, value != wanted);
+      }
     }
   }
   if (document.arrays_of_places.size() == 1) {

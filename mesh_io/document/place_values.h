@@ -18,8 +18,8 @@ struct PlaceValues {
   std::vector<double> values;  ///< one a point
 };
 
-/// From the point array "depth" (or "elevation"), else "elevation" (or "depth") with the other sign, else the only one
-/// of arrays_of_places that has one component. Arrays with numbers that are not finite do not count.
+/// From the point array "depth" (or "elevation", TELEMAC's "BOTTOM"), else one of the other with the other sign, else
+/// the only one of arrays_of_places that has one component. Arrays with numbers that are not finite do not count.
 PlaceValues find_place_values(const MeshDocument& document, PlaceValue wanted);
 
 /// The sentence where there are none: "ADCIRC holds depths: 0 is written for all points, ...".

@@ -315,7 +315,7 @@ def _labels(labels: Any) -> List[int]:
 
 def read(path: Path, *, format: Optional[str] = None, threads: int = 0) -> Mesh:
     """Reads a mesh file: OFF, OBJ, PLY, STL, VTK, VTU, VTP, Gmsh MSH, Medit, SU2, Abaqus, ADCIRC, 2dm, FreeFem, MFEM,
-    Triangle, Nastran, UNV, XDMF, Exodus II, UGRID, MED, CGNS, also compressed by gzip. Nothing is interpreted, nothing is lost.
+    Triangle, Nastran, UNV, XDMF, Exodus II, UGRID, MED, CGNS, SELAFIN, also compressed by gzip. Nothing is interpreted, nothing is lost.
 
     Parameters
     ----------

@@ -169,7 +169,7 @@ TEST_CASE("changed values of point arrays are written back in every format that 
       }
     }
   }
-  for (const char* extension : {".ply", ".vtk", ".vtu", ".vtp", ".med", ".cgns"}) {
+  for (const char* extension : {".ply", ".vtk", ".vtu", ".vtp", ".med", ".cgns", ".slf"}) {
     INFO(extension);
     CHECK((extensions.count(extension) == 1 || !is_available(*trismooth::format_of(std::string("a") + extension))));
   }

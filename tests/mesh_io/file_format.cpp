@@ -59,6 +59,9 @@ TEST_CASE("extensions name these formats") {
       {".med", {"med"}},
       {".rmed", {"med"}},
       {".mmed", {"med"}},
+      {".slf", {"selafin"}},
+      {".srf", {"selafin"}},
+      {".sel", {"selafin"}},
   };
   for (const auto& [extension, formats] : documented) {
     CAPTURE(extension);
@@ -117,9 +120,9 @@ TEST_CASE("the last extension counts, and nothing else of the name") {
   }
 }
 
-TEST_CASE("VTK's formats, MSH and PLY hold arrays") {
-  for (const FileFormat format :
-       {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp, FileFormat::msh, FileFormat::ply}) {
+TEST_CASE("VTK's formats, MSH, MED, CGNS and PLY hold arrays") {
+  for (const FileFormat format : {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp, FileFormat::msh, FileFormat::med,
+                                  FileFormat::cgns, FileFormat::ply}) {
     CHECK(has_arrays(format));
   }
   for (const FileFormat format : {FileFormat::off, FileFormat::obj, FileFormat::stl, FileFormat::nastran}) {

@@ -15,14 +15,14 @@ namespace accepted_files {
 FormatSample off_sample(), obj_sample(), ply_sample(), stl_sample(), vtk_sample(), vtu_sample(), vtp_sample(),
     msh_sample(), medit_sample(), su2_sample(), inp_sample(), adcirc_sample(), sms_sample(), freefem_sample(),
     mfem_sample(), triangle_sample(), nastran_sample(), unv_sample(), xdmf_sample(), exodus_sample(), ugrid_sample(),
-    med_sample(), cgns_sample();
+    med_sample(), cgns_sample(), selafin_sample();
 
 const std::vector<FormatSample>& format_samples() {
   static const std::vector<FormatSample> samples{
       off_sample(),  obj_sample(),     ply_sample(),   stl_sample(),      vtk_sample(),     vtu_sample(),
       vtp_sample(),  msh_sample(),     medit_sample(), su2_sample(),      inp_sample(),     adcirc_sample(),
       sms_sample(),  freefem_sample(), mfem_sample(),  triangle_sample(), nastran_sample(), unv_sample(),
-      xdmf_sample(), exodus_sample(),  ugrid_sample(), med_sample(),      cgns_sample()};
+      xdmf_sample(), exodus_sample(),  ugrid_sample(), med_sample(),      cgns_sample(),    selafin_sample()};
   return samples;
 }
 
