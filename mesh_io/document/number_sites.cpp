@@ -10,7 +10,6 @@
 #include <optional>
 #include <type_traits>
 
-#include "trismooth/mesh_io/bytes/binary_numbers.h"
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/memory_block.h"
@@ -40,47 +39,52 @@ class SitePatcher {
 
   SitePatcher(std::string_view bytes, const NumberSites& sites) : bytes_(bytes), sites_(sites) {}
 
-  /// Writes the new bytes of the number at `offset` to `target`, most_number_bytes at most, where `value` differs from
-  /// what stands there.
+  ScalarType type_of(std::size_t column) const {
+    return sites_.column_types.empty() ? sites_.type : sites_.column_types[column];
+  }
+
+  /// Of a binary number of type T at `place`: makes it that value, unless it does not differ.
+  template <class T>
+  void replace(char* place, T value) const {
+    const bool swapped = is_swapped(sites_.encoding);
+    T stored{};
+    std::memcpy(&stored, place, sizeof(T));
+    if (differs(swapped ? with_bytes_reversed(stored) : stored, value)) {
+      stored = swapped ? with_bytes_reversed(value) : value;
+      std::memcpy(place, &stored, sizeof(T));
+    }
+  }
+
+  /// Of text: writes the new bytes of the number at `offset` to `target`, most_number_bytes at most, where `value`
+  /// differs from what stands there.
   Patch patch(std::size_t offset, std::size_t column, double value, char* target) const {
-    const ScalarType type = sites_.column_types.empty() ? sites_.type : sites_.column_types[column];
-    return visit_scalar_type(type,
+    return visit_scalar_type(type_of(column),
                              [&](auto zero) { return patch_as(offset, static_cast<decltype(zero)>(value), target); });
   }
 
  private:
   template <class T>
   Patch patch_as(std::size_t offset, T value, char* target) const {
-    if (sites_.encoding == NumberEncoding::text) {
-      if constexpr (std::is_same_v<T, double>) {
-        if (sites_.is_in_columns) {
-          return patch_columns(offset, value, target);
-        }
+    if constexpr (std::is_same_v<T, double>) {
+      if (sites_.is_in_columns) {
+        return patch_columns(offset, value, target);
       }
-      T plain{};
-      PlainNumbers numbers(bytes_, offset);
-      if (numbers.next(plain)) {
-        return {numbers.offset() - offset, differs(plain, value) ? write_text(value, target) : 0};
-      }
-      const std::size_t end = std::min(bytes_.find_first_of(token_ends, offset), bytes_.size());
-      const std::string_view token = bytes_.substr(offset, end - offset);
-      std::optional<T> stored;
-      if constexpr (std::is_floating_point_v<T>) {
-        stored = parse_fortran_number<T>(token);
-      } else {
-        stored = parse_integer_as<T>(token);
-      }
-      const bool stays = stored ? !differs(*stored, value) : is_no_number(value);
-      return {token.size(), stays ? 0 : write_text(value, target)};
     }
-    const bool swapped = is_swapped(sites_.encoding);
-    T stored{};
-    if (BinaryNumbers(bytes_, offset, swapped).next(stored) && !differs(stored, value)) {
-      return {sizeof(T), 0};
+    T plain{};
+    PlainNumbers numbers(bytes_, offset);
+    if (numbers.next(plain)) {
+      return {numbers.offset() - offset, differs(plain, value) ? write_text(value, target) : 0};
     }
-    stored = swapped ? with_bytes_reversed(value) : value;
-    std::memcpy(target, &stored, sizeof(T));
-    return {sizeof(T), sizeof(T)};
+    const std::size_t end = std::min(bytes_.find_first_of(token_ends, offset), bytes_.size());
+    const std::string_view token = bytes_.substr(offset, end - offset);
+    std::optional<T> stored;
+    if constexpr (std::is_floating_point_v<T>) {
+      stored = parse_fortran_number<T>(token);
+    } else {
+      stored = parse_integer_as<T>(token);
+    }
+    const bool stays = stored ? !differs(*stored, value) : is_no_number(value);
+    return {token.size(), stays ? 0 : write_text(value, target)};
   }
 
   /// Where the columns do not hold the new number, it takes more.
@@ -163,6 +167,9 @@ class PatchedStretch {
     const std::size_t site = sites_.size() - 1;
     const std::size_t column = columns_of(site, order).back();
     const std::size_t offset = offset_of(site, column);
+    if (sites_.encoding != NumberEncoding::text) {
+      return offset + size_of(patcher_.type_of(column));
+    }
     std::array<char, most_number_bytes> unused{};
     return offset + patcher_.patch(offset, column, 0, unused.data()).old_bytes;
   }
@@ -172,6 +179,10 @@ class PatchedStretch {
     const std::size_t last = std::min(first + sites_each_, sites_.size());
     const std::size_t end = last == sites_.size() ? end_of_sites() : begin_of(last);
     std::size_t done = block == 0 ? begin_ : begin_of(first);
+    if (sites_.encoding != NumberEncoding::text) {
+      append_binary(first, last, done, end, out);
+      return;
+    }
     char* const begin =
         reinterpret_cast<char*>(out.extend(end - done + sites_.columns.size() * (last - first) * most_number_bytes));
     char* target = begin;
@@ -204,6 +215,25 @@ class PatchedStretch {
 
  private:
   using Order = std::vector<std::size_t>;
+
+  /// New numbers take the bytes of the old ones.
+  void append_binary(std::size_t first, std::size_t last, std::size_t begin, std::size_t end, MemoryBlock& out) const {
+    char* const target = reinterpret_cast<char*>(out.extend(end - begin));
+    std::memcpy(target, bytes_.data() + begin, end - begin);
+    for (std::size_t column = 0; column < sites_.columns.size(); ++column) {
+      const ColumnValues& values = values_[column];
+      if (values.first == nullptr) {
+        continue;
+      }
+      visit_scalar_type(patcher_.type_of(column), [&](auto zero) {
+        for (std::size_t site = first; site < last; ++site) {
+          const std::size_t vertex = sites_.vertices.empty() ? site : static_cast<std::size_t>(sites_.vertices[site]);
+          patcher_.replace(target + (offset_of(site, column) - begin),
+                           static_cast<decltype(zero)>(values.first[vertex * values.stride]));
+        }
+      });
+    }
+  }
 
   std::size_t offset_of(std::size_t site, std::size_t column) const { return sites_.offset_of(site, column); }
 
