@@ -81,7 +81,7 @@ std::string titled_format_list();
 std::string format_names();
 
 /// True for the formats that hold arrays of points and cells by name, and take annotations: vtk, vtu, vtp, msh, xdmf,
-/// med, cgns, and ply as properties.
+/// med, cgns, exodus as variables, and ply as properties.
 bool has_arrays(FileFormat format);
 
 /// True for the formats that hold names of values and sets, or say themselves what they cannot hold of these.

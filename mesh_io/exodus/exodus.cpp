@@ -330,10 +330,11 @@ bool is_exodus(std::string_view bytes) {
 
 }  // namespace
 
-const Codec exodus_codec{{FileFormat::exodus, "exodus", "Exodus II", {".exo", ".e", ".ex2", ".g"}, {.names = true}, 1},
-                         &read_exodus,
-                         &write_exodus,
-                         &lost_in_exodus,
-                         &is_exodus};
+const Codec exodus_codec{
+    {FileFormat::exodus, "exodus", "Exodus II", {".exo", ".e", ".ex2", ".g"}, {.arrays = true, .names = true}, 1},
+    &read_exodus,
+    &write_exodus,
+    &lost_in_exodus,
+    &is_exodus};
 
 }  // namespace trismooth

@@ -84,16 +84,18 @@ WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool
   if (annotate && !annotates) {
     const std::string which = target == FileFormat::msh ? " of version 1, or with tags above 2147483647," : "";
     run.note("--annotate has no effect: " +
-             (has_arrays(target) ? "a " + std::string(title_of(target)) + " file" + which +
-                                       " that was read is written back with nothing added"
+             (has_arrays(target) ? std::string(title_of(target)) + " files" + which +
+                                       " that were read are written back with nothing added"
                                  : "." + std::string(to_string(target)) + " holds no arrays") +
              "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
   }
   if (!annotates && !dropped.empty()) {
     run.note(note_of_dropped_annotations(dropped));
   }
-  if (!dropped.empty() && target == FileFormat::ply && run.document.format == target) {
-    run.note("the PLY file is made anew without its old annotations: binary, and without comments");
+  const OriginalFile* const original = run.document.format == target ? run.document.original.get() : nullptr;
+  if (!dropped.empty() && original != nullptr && !original->takes_added_arrays()) {
+    run.note("the " + std::string(title_of(target)) + " file is made anew without its old annotations" +
+             (target == FileFormat::ply ? ": binary, and without comments" : ""));
   }
   AddedArrays added = annotates ? annotations_of(run) : AddedArrays{};
   if (takes_arrays) {

@@ -120,9 +120,9 @@ TEST_CASE("the last extension counts, and nothing else of the name") {
   }
 }
 
-TEST_CASE("VTK's formats, MSH, MED, CGNS and PLY hold arrays") {
-  for (const FileFormat format : {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp, FileFormat::msh, FileFormat::med,
-                                  FileFormat::cgns, FileFormat::ply}) {
+TEST_CASE("VTK's formats, MSH, PLY, XDMF, Exodus, MED and CGNS hold arrays") {
+  for (const FileFormat format : {FileFormat::vtk, FileFormat::vtu, FileFormat::vtp, FileFormat::msh, FileFormat::ply,
+                                  FileFormat::xdmf, FileFormat::exodus, FileFormat::med, FileFormat::cgns}) {
     CHECK(has_arrays(format));
   }
   for (const FileFormat format : {FileFormat::off, FileFormat::obj, FileFormat::stl, FileFormat::nastran}) {

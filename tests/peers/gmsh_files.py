@@ -355,8 +355,8 @@ class OpenedByGmsh(GmshTest):
         gmsh_model.build()
         gmsh_model.write(self.path("old.msh"), MshFileVersion=1, Binary=0)
         outcome = self.run_tool("smooth", "old.msh", "out.msh", "--annotate", "--verbose")
-        self.assertIn("--annotate has no effect: a Gmsh MSH file of version 1, or with tags above 2147483647, that was "
-                      "read is written back with nothing added",
+        self.assertIn("--annotate has no effect: Gmsh MSH files of version 1, or with tags above 2147483647, that were "
+                      "read are written back with nothing added",
                       " ".join(outcome.err.split()))
 
 

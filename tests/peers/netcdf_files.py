@@ -293,6 +293,75 @@ class Exodus(NetcdfTest):
         numpy.testing.assert_array_equal(mesh.cells[1].data, right)
         numpy.testing.assert_array_equal(mesh.point_data["heat"], plate()[0][:, 0])
 
+    def write_arrays(self):
+        """A VTU file of both kinds of arrays, of one component and of three."""
+        points, left, right = plate()
+        triangles = numpy.concatenate([left, right])
+        heat = points[:, 0] ** 2 - 0.1
+        speed = numpy.column_stack([points, -points[:, 0]])
+        flux = numpy.arange(len(triangles)) / 7
+        meshio.write(self.path("in.vtu"), meshio.Mesh(
+            numpy.column_stack([points, numpy.zeros(len(points))]), [("triangle", triangles)],
+            point_data={"heat": heat, "speed": speed}, cell_data={"flux": [flux]}))
+        return heat, speed, flux
+
+    def test_arrays_are_variables_of_one_step_for_netcdf4_vtk_and_meshio(self):
+        heat, speed, flux = self.write_arrays()
+        self.run_tool("smooth", "in.vtu", "out.exo")
+        with netCDF4.Dataset(self.path("out.exo")) as file:
+            self.assertEqual(file["time_whole"][:].tolist(), [0])
+            names = [str(name).rstrip("\0") for name in netCDF4.chartostring(file["name_nod_var"][:])]
+            self.assertEqual(names, ["heat", "speed_x", "speed_y", "speed_z"])
+            for i, values in enumerate([heat, *speed.T]):
+                numpy.testing.assert_array_equal(file[f"vals_nod_var{i + 1}"][0], values)
+            numpy.testing.assert_array_equal(file["vals_elem_var1eb1"][0], flux)
+        reader = vtkExodusIIReader()
+        reader.SetFileName(self.path("out.exo"))
+        reader.UpdateInformation()
+        reader.SetAllArrayStatus(reader.NODAL, 1)
+        reader.SetAllArrayStatus(reader.ELEM_BLOCK, 1)
+        reader.SetSqueezePoints(0)
+        reader.Update()
+        block = reader.GetOutput().GetBlock(0).GetBlock(0)
+        array = block.GetPointData().GetArray("speed_")
+        self.assertEqual(array.GetNumberOfComponents(), 3)
+        numpy.testing.assert_array_equal([array.GetTuple(i) for i in range(array.GetNumberOfTuples())], speed)
+        array = block.GetCellData().GetArray("flux")
+        numpy.testing.assert_array_equal([array.GetValue(i) for i in range(array.GetNumberOfTuples())], flux)
+        mesh = meshio.read(self.path("out.exo"))
+        numpy.testing.assert_array_equal(mesh.point_data["heat"], heat)
+
+    def test_arrays_come_back(self):
+        heat, speed, flux = self.write_arrays()
+        self.run_tool("smooth", "in.vtu", "out.exo")
+        self.run_tool("smooth", "out.exo", "back.vtu")
+        mesh = meshio.read(self.path("back.vtu"))
+        numpy.testing.assert_array_equal(mesh.point_data["heat"], heat)
+        numpy.testing.assert_array_equal(mesh.point_data["speed_y"], speed[:, 1])
+        numpy.testing.assert_array_equal(mesh.cell_data["flux"][0], flux)
+
+    def test_annotations_are_variables_and_go_with_a_note(self):
+        self.write_arrays()
+        self.run_tool("smooth", "in.vtu", "out.exo", "--annotate")
+        self.run_tool("quality", "in.vtu", "--annotate", "quality.exo", "--annotate-metrics", "min_angle")
+        for name, variables in (("out.exo", {"trismooth:fixed", "trismooth:displacement_x"}),
+                                ("quality.exo", {"trismooth:fixed"})):
+            with netCDF4.Dataset(self.path(name)) as file:
+                names = {str(text).rstrip("\0") for text in netCDF4.chartostring(file["name_nod_var"][:])}
+                self.assertLess(variables, names)
+        with netCDF4.Dataset(self.path("quality.exo")) as file:
+            names = [str(text).rstrip("\0") for text in netCDF4.chartostring(file["name_elem_var"][:])]
+            angles = file[f"vals_elem_var{names.index('trismooth:min_angle') + 1}eb1"][0]
+            self.assertTrue(((angles > 0) & (angles <= 60.001)).all())
+        done = self.run_tool("smooth", "out.exo", "again.exo")
+        self.assertIn("made anew without its old annotations", done.out + done.err)
+        with netCDF4.Dataset(self.path("again.exo")) as file:
+            names = {str(text).rstrip("\0") for text in netCDF4.chartostring(file["name_nod_var"][:])}
+            self.assertEqual(names, {"heat", "speed_x", "speed_y", "speed_z"})
+        write_exodus(self.path("in.exo"), "NETCDF4")
+        done = self.run_tool("smooth", "in.exo", "out.exo", "--annotate")
+        self.assertIn("Exodus II files that were read are written back with nothing added", done.out + done.err)
+
 
 class Ugrid(NetcdfTest):
 

@@ -306,7 +306,7 @@ TEST_CASE("annotations become properties of a PLY that is made, or that has some
   const PipelineResult again = trismooth::run_pipeline(options);
   REQUIRE(about_annotate(again) == 1);
   const auto note = std::ranges::find_if(again.notes, [](const auto& n) { return n.starts_with("--annotate"); });
-  CHECK(note->find("a PLY file that was read is written back with nothing added") != std::string::npos);
+  CHECK(note->find("PLY files that were read are written back with nothing added") != std::string::npos);
 }
 
 TEST_CASE("triangles that are no mesh are told with the file, whoever finds out") {
