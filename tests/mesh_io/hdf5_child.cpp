@@ -129,7 +129,10 @@ TEST_CASE("a child of HDF5 that breaks off, lies or gives no answer is lost, and
       for (volatile bool goes_on = true; goes_on;) {
       }
     });
-    CHECK(loss_of(endless) == "is damaged: HDF5's library comes to no end with it");
+    // On a machine with much else to do its time by the clock may be over first.
+    const std::string loss = loss_of(endless);
+    CHECK((loss == "is damaged: HDF5's library comes to no end with it" ||
+           loss == "is damaged: HDF5's library gives no answer"));
     Hdf5Child silent({0, 0}, [](Hdf5Channel& /*channel*/) { ::pause(); });
     CHECK(loss_of(silent) == "is damaged: HDF5's library gives no answer");
     const Hdf5Child deaf(few, [](Hdf5Channel& /*channel*/) {
