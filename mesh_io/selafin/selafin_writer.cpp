@@ -279,6 +279,7 @@ std::vector<std::string> lost_in_selafin(const MeshDocument& document) {
   others.cell_arrays = document.cell_arrays;
   others.field_arrays = document.field_arrays;
   std::ranges::move(describe_lost_arrays("SELAFIN", others), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_sets("SELAFIN", document), std::back_inserter(sentences));
   std::ranges::move(describe_lost_z("SELAFIN", document), std::back_inserter(sentences));
   const Variables variables = variables_of(document);
   if (!variables.bottom.array.empty()) {
