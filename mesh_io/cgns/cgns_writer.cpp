@@ -20,6 +20,7 @@
 #include "trismooth/mesh_io/document/array_components.h"
 #include "trismooth/mesh_io/document/cells/group_lists.h"
 #include "trismooth/mesh_io/document/format_losses.h"
+#include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/hdf5/hdf5_writer.h"
 
 namespace trismooth {
@@ -260,9 +261,16 @@ class CgnsWriter {
     }
     const std::string all = zone_path_ + "/ZoneBC";
     make_node(all, "ZoneBC_t", "MT");
-    std::size_t number = 0;
+    // By the name of the group as well: what other programs show.
+    std::vector<std::string> wanted;
+    FreeNames free_names;
     for (const auto& [key, members] : conditions) {
-      const std::string condition = all + "/Group_" + std::to_string(++number);
+      wanted.push_back(free_names.claim(lists_.names[key.first]));
+    }
+    const std::vector<std::string> titles = fit_names(wanted, most_cgns_name_size, no_cgns_name_characters).names;
+    auto title = titles.begin();
+    for (const auto& [key, members] : conditions) {
+      const std::string condition = all + "/" + *title++;
       add_text(condition, "BC_t", "FamilySpecified");
       add(condition + "/PointList", "IndexArray_t", "I4", members, {members.size(), 1});
       add_text(condition + "/GridLocation", "GridLocation_t", key.second);
