@@ -133,6 +133,11 @@ std::vector<std::string> lost_in(const MeshDocument& document, FileFormat target
     }
     std::ranges::move(describe_lost_sets(title_of(target), document), std::back_inserter(lost));
   }
+  if (!document.point_labels.empty()) {
+    const auto [least, most] = std::ranges::minmax(document.point_labels);
+    lost.push_back(std::string(title_of(target)) + " output numbers points anew: the file's own numbers, from " +
+                   std::to_string(least) + " to " + std::to_string(most) + ", are not written");
+  }
   return lost;
 }
 

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/byte_order.h"
@@ -265,6 +266,39 @@ class PatchedStretch {
 };
 
 }  // namespace
+
+NumberSites binary_sites(NumberEncoding encoding, ScalarType type, std::uint64_t begin, std::size_t step,
+                         std::size_t count, std::vector<SiteColumn> columns) {
+  const std::size_t size = size_of(type);
+  NumberSites sites;
+  sites.encoding = encoding;
+  sites.type = type;
+  sites.columns = std::move(columns);
+  const EvenSites even{begin, step * size, count};
+  if (size == sizeof(double) || sites.columns.size() == 1) {
+    sites.even = even;
+    return sites;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t column = 0; column < sites.columns.size(); ++column) {
+      sites.offsets.push_back(even.begin + i * even.step + column * size);
+    }
+  }
+  return sites;
+}
+
+bool sort_apart(std::vector<const NumberSites*>& lists) {
+  std::erase_if(lists, [](const NumberSites* list) { return list->size() == 0; });
+  std::ranges::sort(lists, {}, [](const NumberSites* list) { return list->offset_of(0, 0); });
+  std::uint64_t end = 0;
+  for (const NumberSites* const list : lists) {
+    if (list->offset_of(0, 0) < end) {
+      return false;
+    }
+    end = list->offset_of(list->size() - 1, list->columns.size() - 1) + size_of(list->type);
+  }
+  return true;
+}
 
 void write_patched(const std::filesystem::path& path, std::string_view bytes, std::span<const PatchedSites> lists,
                    std::string_view suffix, const FileWorkers& workers) {

@@ -62,6 +62,11 @@ struct NumberSites {
   }
 };
 
+/// Sites of numbers of float32 or float64 in a binary encoding, `count` of them with `step` numbers from each to the
+/// next, of which the first stands at the byte `begin`; the columns' numbers stand side by side.
+NumberSites binary_sites(NumberEncoding encoding, ScalarType type, std::uint64_t begin, std::size_t step,
+                         std::size_t count, std::vector<SiteColumn> columns);
+
 /// Where the values of a column are: those of vertex v at first[v * stride]. Null: the column stays as it is.
 struct ColumnValues {
   const double* first = nullptr;
@@ -76,11 +81,14 @@ void write_patched(const std::filesystem::path& path, std::string_view bytes, co
                    std::span<const ColumnValues> values, std::string_view suffix, const FileWorkers& workers);
 
 /// Sites of numbers with what they are to be.
-
 struct PatchedSites {
   const NumberSites& sites;
   std::vector<ColumnValues> values;
 };
+
+/// Puts lists of a binary encoding, whose columns follow each other, in the order of their places. False where they are
+/// not apart, each wholly behind the one before: in files that are damaged, or made to mislead.
+bool sort_apart(std::vector<const NumberSites*>& lists);
 
 /// write_patched() of several lists of sites, each wholly behind the one before.
 void write_patched(const std::filesystem::path& path, std::string_view bytes, std::span<const PatchedSites> lists,

@@ -2,17 +2,13 @@
 #include "trismooth/mesh_io/hdf5/hdf5_changes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <new>
 #include <stdexcept>
-#include <type_traits>
+#include <utility>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
-#include "trismooth/mesh_io/bytes/byte_order.h"
-#include "trismooth/mesh_io/bytes/memory_block.h"
 #include "trismooth/mesh_io/bytes/saturating_product.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/hdf5/hdf5_child.h"
@@ -50,8 +46,25 @@ struct Hdf5Image {
   static herr_t keep(void*) { return 0; }
 };
 
+/// Whether a filter keeps less than the values: others would be read than were written.
+bool loses_values(const Hdf5Handle& dataset) {
+  const Hdf5Handle properties(H5Dget_create_plist(dataset.get()), &H5Pclose);
+  const bool has_filters = H5Pget_layout(properties.get()) == H5D_CHUNKED;
+  const auto has = [&properties](H5Z_filter_t filter) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    return H5Pget_filter_by_id2(properties.get(), filter, &flags, &values, nullptr, 0, nullptr, nullptr) >= 0;
+  };
+  return has_filters && (has(H5Z_FILTER_SCALEOFFSET) || has(H5Z_FILTER_NBIT));
+}
+
 void overwrite(const Hdf5Handle& file, const std::string& dataset, const std::vector<double>& values) {
   const Hdf5Handle at(H5Dopen2(file.get(), dataset.c_str(), H5P_DEFAULT), &H5Dclose);
+  if (at.is_valid() && loses_values(at)) {
+    throw Hdf5Refusal(quoted(std::string_view(dataset)) +
+                      " is packed with a loss (scale-offset, n-bit): what is written there is not what is read; "
+                      "'h5repack -f GZIP=6 in.h5 out.h5' packs it without one");
+  }
   const Hdf5Handle space(at.is_valid() ? H5Dget_space(at.get()) : -1, &H5Sclose);
   if (!space.is_valid() || H5Sget_simple_extent_npoints(space.get()) != static_cast<hssize_t>(values.size()) ||
       H5Dwrite(at.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
@@ -61,6 +74,7 @@ void overwrite(const Hdf5Handle& file, const std::string& dataset, const std::ve
 
 /// In a child: answers with the whole file.
 void serve_changed(std::string_view bytes, const Hdf5Values& values, const Hdf5Channel& channel) {
+  H5PLset_loading_state(0);
   try {
     Hdf5Image image(bytes);
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
@@ -94,64 +108,40 @@ void serve_changed(std::string_view bytes, const Hdf5Values& values, const Hdf5C
   }
 }
 
-/// Writes the values where they stand in `bytes`. False where the library has to.
-bool patch(MemoryBlock& bytes, const Hdf5Reader& reader, const std::string& dataset,
-           const std::vector<double>& values) {
-  const std::optional<Hdf5Place> place = reader.place_of(dataset);
-  const Hdf5Shape shape = reader.shape_of(dataset);
-  if (!place || shape.count() != values.size()) {
-    return false;
-  }
-  return visit_scalar_type(*shape.type, [&](auto number) {
-    using T = decltype(number);
-    if constexpr (std::is_floating_point_v<T>) {
-      const bool is_swapped = place->is_big_endian == (std::endian::native == std::endian::little);
-      std::byte* at = bytes.data() + place->begin;
-      for (const double value : values) {
-        number = static_cast<T>(value);
-        number = is_swapped ? with_bytes_reversed(number) : number;
-        std::memcpy(at, &number, sizeof(T));
-        at += sizeof(T);
-      }
-      return true;
-    } else {
-      return false;
-    }
-  });
-}
-
 }  // namespace
 
-void write_changed_hdf5(const std::filesystem::path& file, const Hdf5Reader& reader, std::string_view bytes,
-                        const Hdf5Values& values) {
-  MemoryBlock patched;
-  std::string by_library;
-  std::string_view changed = bytes;
-  if (!values.empty()) {
-    patched.append(bytes.data(), bytes.size());
-    changed = {reinterpret_cast<const char*>(patched.data()), patched.size()};
+std::optional<NumberSites> hdf5_sites(const Hdf5Reader& reader, const std::string& dataset, std::size_t begin,
+                                      std::size_t step, std::size_t count, std::vector<SiteColumn> columns) {
+  const std::optional<Hdf5Place> place = reader.place_of(dataset);
+  const Hdf5Shape shape = reader.shape_of(dataset);
+  const bool is_whole =
+      count == 0 || begin + (count - 1) * step + columns.size() <= static_cast<std::size_t>(shape.count());
+  if (!place || !is_whole || (shape.type != ScalarType::float32 && shape.type != ScalarType::float64)) {
+    return std::nullopt;
   }
-  try {
-    Hdf5Values others;
+  const NumberEncoding encoding = place->is_big_endian ? NumberEncoding::big_endian : NumberEncoding::little_endian;
+  return binary_sites(encoding, *shape.type, place->begin + begin * size_of(*shape.type), step, count,
+                      std::move(columns));
+}
+
+void write_changed_hdf5(const std::filesystem::path& file, std::string_view bytes, const Hdf5Values& values) {
+  std::string changed;
+  if (!values.empty()) {
     std::size_t numbers = 0;
     for (const auto& [dataset, of_dataset] : values) {
-      if (!patch(patched, reader, dataset, of_dataset)) {
-        others.emplace(dataset, of_dataset);
-        numbers += of_dataset.size();
-      }
+      numbers += of_dataset.size();
     }
-    if (!others.empty()) {
+    try {
       Hdf5Child child(Hdf5Child::limits_of(bytes.size()),
-                      [&](const Hdf5Channel& channel) { serve_changed(changed, others, channel); });
+                      [&](const Hdf5Channel& channel) { serve_changed(bytes, values, channel); });
       // What does not compress well takes more than before, beside what stood there.
-      by_library = child.answer(saturating_product(4, bytes.size() + sizeof(double) * numbers) + (1U << 20));
-      changed = by_library;
+      changed = child.answer(saturating_product(4, bytes.size() + sizeof(double) * numbers) + (1U << 20));
+    } catch (const std::runtime_error& error) {
+      throw WriteError(file, error.what());
     }
-  } catch (const std::runtime_error& error) {
-    throw WriteError(file, error.what());
   }
   BufferedWriter writer(file);
-  writer.write(changed);
+  writer.write(values.empty() ? bytes : changed);
   writer.close();
 }
 

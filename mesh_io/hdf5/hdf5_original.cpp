@@ -5,13 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <utility>
 
+#include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/hdf5/hdf5_changes.h"
@@ -47,14 +48,16 @@ class Hdf5Original : public OriginalFile {
 
   void write(const std::filesystem::path& path, const MeshDocument& document,
              std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
-             Workers& /*workers*/) const override {
+             Workers& workers) const override {
     require_same_points(path, document, points_, "nodes", added_point_arrays, added_cell_arrays);
-    std::optional<Hdf5Reader> reader;
     Hdf5Values changed;
     try {
-      reader.emplace(path, bytes_);
+      const Hdf5Reader reader(path, bytes_);
+      if (write_in_place(path, reader, document, workers)) {
+        return;
+      }
       for (const auto& [dataset, columns] : columns_) {
-        std::vector<double> values = all_values(*reader, dataset);
+        std::vector<double> values = all_values(reader, dataset);
         for (const Hdf5Column& column : columns) {
           if (column.count > 0 && column.begin + (column.count - 1) * column.step >= values.size()) {
             throw ReadError(path, "another number of values");
@@ -67,7 +70,7 @@ class Hdf5Original : public OriginalFile {
     } catch (const ReadError&) {
       throw WriteError(path, "the file that was read is damaged: HDF5 has read it once, and not a second time");
     }
-    write_changed_hdf5(path, *reader, bytes_, changed);
+    write_changed_hdf5(path, bytes_, changed);
   }
 
   bool keeps_values_of(std::string_view point_array) const override {
@@ -79,6 +82,38 @@ class Hdf5Original : public OriginalFile {
   }
 
  private:
+  /// False, and nothing is done, where not all numbers stand in the file as they are.
+  bool write_in_place(const std::filesystem::path& path, const Hdf5Reader& reader, const MeshDocument& document,
+                      Workers& workers) const {
+    std::deque<NumberSites> sites;
+    std::map<const NumberSites*, std::size_t> first_points;
+    std::vector<const NumberSites*> order;
+    for (const auto& [dataset, columns] : columns_) {
+      for (const Hdf5Column& column : columns) {
+        auto found = hdf5_sites(reader, dataset, column.begin, column.step, column.count, {column.column});
+        if (!found) {
+          return false;
+        }
+        sites.push_back(std::move(*found));
+        order.push_back(&sites.back());
+        first_points.emplace(order.back(), column.first_point);
+      }
+    }
+    if (!sort_apart(order)) {
+      return false;
+    }
+    std::vector<std::vector<double>> copies;
+    std::vector<PatchedSites> lists;
+    for (const NumberSites* const list : order) {
+      lists.push_back({*list, column_values(*list, document, copies)});
+      for (ColumnValues& values : lists.back().values) {
+        values.first += values.first == nullptr ? 0 : first_points.at(list) * values.stride;
+      }
+    }
+    write_patched(path, bytes_, lists, {}, FileWorkers(workers));
+    return true;
+  }
+
   /// Whether any value is another one now.
   static bool update(std::vector<double>& values, const std::vector<Hdf5Column>& columns,
                      const MeshDocument& document) {

@@ -175,8 +175,9 @@ class Hdf5Service {
         return {};
       }
       if (link.type != H5L_TYPE_HARD) {
-        fail(object, "leads through " + quoted(std::string_view(name)) +
-                         ", a link, which is not followed: 'h5repack' or a copy makes one file without links of it");
+        fail(object,
+             "leads through " + quoted(std::string_view(name)) +
+                 ", a link, which is not followed: 'h5repack --merge in.h5 out.h5' makes a file without links of it");
       }
       at = Hdf5Handle(H5Oopen(at.get(), name.c_str(), H5P_DEFAULT), &H5Oclose);
     }
@@ -288,7 +289,24 @@ class Hdf5Service {
   static Hdf5Handle own_properties(const Hdf5Source& source) {
     Hdf5Handle properties(H5Dget_create_plist(source.handle.get()), &H5Pclose);
     if (H5Pget_layout(properties.get()) == H5D_VIRTUAL || H5Pget_external_count(properties.get()) > 0) {
-      fail(source.name, "is kept in other files, which are not read: 'h5repack' makes one file of them");
+      fail(source.name,
+           "is made of other datasets or kept in other files, which are not read: 'h5repack -l CONTI in.h5 out.h5' "
+           "makes "
+           "one of the former, a program that copies its values one of the latter");
+    }
+    const int filters = H5Pget_layout(properties.get()) == H5D_CHUNKED ? H5Pget_nfilters(properties.get()) : 0;
+    for (int i = 0; i < filters; ++i) {
+      std::array<char, 64> name{};
+      std::size_t values = 0;
+      unsigned flags = 0;
+      const H5Z_filter_t filter = H5Pget_filter2(properties.get(), static_cast<unsigned>(i), &flags, &values, nullptr,
+                                                 name.size() - 1, name.data(), nullptr);
+      if (H5Zfilter_avail(filter) <= 0) {
+        fail(source.name,
+             "is packed by a filter that HDF5 has only as a plugin (" +
+                 (name[0] == '\0' ? "number " + std::to_string(filter) : quoted(std::string_view(name.data()))) +
+                 "), and none is loaded: 'h5repack -f GZIP=6 in.h5 out.h5' packs anew where the plugin is");
+      }
     }
     return properties;
   }
@@ -544,6 +562,7 @@ std::string Hdf5Service::answer(Hdf5MessageReader request) const {
 }  // namespace
 
 void serve_hdf5(std::string_view bytes, Hdf5Channel& channel) {
+  H5PLset_loading_state(0);
   try {
     const Hdf5Service service(bytes);
     channel.answer({});

@@ -293,21 +293,21 @@ class MedReader {
 
   void read_polygons(const std::string& group) {
     const std::string dataset = group + "/NOD";
-    if (!has(group + "/IND", Hdf5Kind::dataset)) {
-      fail_at(group, "has no list of where its polygons begin (IND)");
+    if (!has(group + "/INN", Hdf5Kind::dataset)) {
+      fail_at(group, "has no list of where its polygons begin (INN)");
     }
     const std::vector<std::int64_t> nodes = integers(dataset);
-    const std::vector<std::int64_t> begins = integers(group + "/IND");
+    const std::vector<std::int64_t> begins = integers(group + "/INN");
     if (begins.empty() || begins.front() != 1 || begins.back() != std::ssize(nodes) + 1 ||
         !std::ranges::is_sorted(begins)) {
-      fail_at(group + "/IND", "expected numbers that go from 1 up to one more than NOD has");
+      fail_at(group + "/INN", "expected numbers that go from 1 up to one more than NOD has");
     }
     CellList& cells = document_.cells;
     require_room_for_indices(cells.size() + begins.size() - 1, "elements");
     for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
       const auto count = static_cast<std::size_t>(begins[i + 1] - begins[i]);
       if (count < 3) {
-        fail_at(group + "/IND", "polygon " + std::to_string(i + 1) + " has fewer than 3 nodes");
+        fail_at(group + "/INN", "polygon " + std::to_string(i + 1) + " has fewer than 3 nodes");
       }
       for (std::int64_t k = begins[i]; k < begins[i + 1]; ++k) {
         cells.connectivity.push_back(point_of(nodes[static_cast<std::size_t>(k - 1)], dataset, i));

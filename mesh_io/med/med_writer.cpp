@@ -162,7 +162,7 @@ class MedWriter {
         }
         begins.push_back(std::ssize(nodes) + 1);
       }
-      write_list(group + "/IND", begins, begins.size());
+      write_list(group + "/INN", begins, begins.size());
       write_list(group + "/NOD", nodes, nodes.size());
     } else {
       nodes.resize(element.nodes * members.size());

@@ -245,10 +245,16 @@ class UgridReader {
 
   void read_values() {
     for (const NetcdfVariable& variable : file_.content().variables) {
-      if (used_.contains(&variable) || variable.has_records || variable.type == NetcdfType::other) {
+      if (used_.contains(&variable) || variable.type == NetcdfType::other) {
         continue;
       }
-      if (variable.dimensions == std::vector{node_dimension_}) {
+      const bool is_packed = find_attribute(variable.attributes, "scale_factor") != nullptr ||
+                             find_attribute(variable.attributes, "add_offset") != nullptr;
+      const bool is_of_mesh =
+          variable.dimensions == std::vector{node_dimension_} || variable.dimensions == std::vector{face_dimension_};
+      if (is_packed && is_of_mesh) {
+        packed_.push_back(variable.name);
+      } else if (variable.dimensions == std::vector{node_dimension_}) {
         read_node_values(variable);
       } else if (variable.dimensions == std::vector{face_dimension_} && !is_derived(variable)) {
         read_face_values(variable);
@@ -308,14 +314,19 @@ class UgridReader {
           "move: " +
           derived + ".");
     }
+    constexpr std::size_t most = 8;
+    if (!packed_.empty()) {
+      document_.notes.push_back("Values that are packed (scale_factor, add_offset) are kept in UGRID output only: " +
+                                first_of_list(packed_, most) + "; 'ncpdq -U in.nc out.nc' unpacks them.");
+    }
     if (!of_times_.empty()) {
-      constexpr std::size_t most = 8;
       document_.notes.push_back(
           "Values of several times or layers are kept in UGRID output only: " + first_of_list(of_times_, most) + ".");
     }
   }
 
   NetcdfFile file_;
+  std::vector<std::string> packed_;
   std::size_t left_for_lines_;  ///< bytes that values of these may take
   const FileWorkers& workers_;
   MeshDocument document_;

@@ -20,9 +20,9 @@ namespace trismooth {
 
 namespace {
 
-// The arrays of points have names of the dimension 0, those of cells all others.
-constexpr int of_points = 0;
-constexpr int of_cells = 2;
+/// Where the values are that a name is of: in our own files, where a dimension of 0 may be that of cells with one
+/// point.
+enum class Center : bool { node, cell };
 
 void add_set_arrays(const std::vector<NamedSet>& sets, std::size_t rows, std::vector<DataArray>& arrays) {
   FreeNames names;
@@ -38,22 +38,24 @@ void add_set_arrays(const std::vector<NamedSet>& sets, std::size_t rows, std::ve
   }
 }
 
-void append_name(std::string& text, const DataArray& array, const ValueName& name, bool is_set) {
+void append_name(std::string& text, const DataArray& array, const ValueName& name, Center center, bool is_set) {
   text.append("<map key=\"").append(escape_xml_attribute(name.name));
   text.append("\" dim=\"").append(std::to_string(name.dimension));
+  text.append(center == Center::node ? "\" center=\"Node" : "\" center=\"Cell");
   text.append("\" array=\"").append(escape_xml_attribute(array.name)).append(is_set ? "\" set=\"1\">" : "\">");
   text.append(std::to_string(name.value)).append("</map>");
 }
 
 /// Of `arrays` those behind the first `own` are the sets.
 void append_names(std::string& text, const std::vector<DataArray>& arrays, std::size_t own,
-                  const std::vector<NamedSet>& sets, int dimension) {
+                  const std::vector<NamedSet>& sets, Center center) {
+  const int dimension = center == Center::node ? 0 : 2;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     if (i >= own) {
-      append_name(text, arrays[i], {1, dimension, sets[i - own].name}, true);
+      append_name(text, arrays[i], {1, dimension, sets[i - own].name}, center, true);
     } else if (arrays[i].description != nullptr) {
       for (const ValueName& name : arrays[i].description->value_names) {
-        append_name(text, arrays[i], name, false);
+        append_name(text, arrays[i], name, center, false);
       }
     }
   }
@@ -82,8 +84,9 @@ FoundNames names_in(const std::filesystem::path& file, std::string_view content)
     if (map.name != "map" || name == nullptr || !dimension || *dimension < 0 || *dimension > 3 || !value) {
       continue;
     }
-    ArrayNames& names =
-        (*dimension == of_points ? found.of_points : found.of_cells)[array == nullptr ? "gmsh:physical" : *array];
+    const auto center = map.word("center");
+    const bool is_of_points = center ? *center == "Node" : *dimension == 0;
+    ArrayNames& names = (is_of_points ? found.of_points : found.of_cells)[array == nullptr ? "gmsh:physical" : *array];
     names.is_set = names.is_set || map.attribute("set") != nullptr;
     names.values.push_back({*value, static_cast<int>(*dimension), *name});
   }
@@ -139,8 +142,8 @@ XdmfWrittenArrays xdmf_written_arrays(const MeshDocument& document) {
 
 std::string xdmf_names(const MeshDocument& document, const XdmfWrittenArrays& arrays) {
   std::string maps;
-  append_names(maps, arrays.of_points, document.point_arrays.size(), document.point_sets, of_points);
-  append_names(maps, arrays.of_cells, document.cell_arrays.size(), document.cell_sets, of_cells);
+  append_names(maps, arrays.of_points, document.point_arrays.size(), document.point_sets, Center::node);
+  append_names(maps, arrays.of_cells, document.cell_arrays.size(), document.cell_sets, Center::cell);
   return maps.empty() ? maps : "<main>" + maps + "</main>";
 }
 

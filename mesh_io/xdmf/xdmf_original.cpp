@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <deque>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -74,21 +76,23 @@ class XdmfOriginal : public OriginalFile {
   }
 
   /// What the files are called beside the one at `path`: "out.h5" for the "in.h5" of "in.xdmf", "out_mesh.h5" for its
-  /// "mesh.h5".
+  /// "mesh.h5". Only where the file is written back to its own place they keep their names: what a file is called is
+  /// the choice of whoever made it, and may be the name of something else in another folder.
   std::vector<std::string> names_beside(const std::filesystem::path& path) const {
     const std::string stem = path.stem().string();
     const std::string own = source_.path.stem().string();
-    const bool keeps_all = path.filename() == source_.path.filename();
+    const bool is_in_place = path.filename() == source_.path.filename() && folder_of(path) == folder_of(source_.path);
+    const auto keeps_name = [&](std::size_t i) { return is_in_place || !is_written(i, path); };
     std::set<std::string, std::less<>> taken;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < source_.files.size(); ++i) {
       names.push_back(source_.files[i].name);
-      if (keeps_all || !has_coordinates_[i]) {
+      if (keeps_name(i)) {
         taken.insert(names[i]);
       }
     }
     for (std::size_t i = 0; i < names.size(); ++i) {
-      if (keeps_all || !has_coordinates_[i]) {
+      if (keeps_name(i)) {
         continue;
       }
       const bool begins_so = names[i].starts_with(own) && names[i].size() > own.size() &&
@@ -111,26 +115,12 @@ class XdmfOriginal : public OriginalFile {
     return values;
   }
 
-  static NumberSites sites_of(const XdmfCoordinates& coordinates, NumberEncoding encoding) {
-    NumberSites sites;
-    sites.encoding = encoding;
-    sites.type = coordinates.item.type.value_or(ScalarType::float64);
-    sites.columns.clear();
+  static std::vector<SiteColumn> columns_of(const XdmfCoordinates& coordinates) {
+    std::vector<SiteColumn> columns;
     for (const std::uint8_t component : coordinates.components) {
-      sites.columns.push_back({.component = component});
+      columns.push_back({.component = component});
     }
-    return sites;
-  }
-
-  static void write_patched_lists(const std::filesystem::path& path, std::string_view bytes,
-                                  std::span<const NumberSites> sites,
-                                  std::span<const XdmfCoordinates* const> coordinates, const MeshDocument& document,
-                                  Workers& workers) {
-    std::vector<PatchedSites> lists;
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-      lists.push_back({sites[i], values_of(*coordinates[i], document)});
-    }
-    write_patched(path, bytes, lists, {}, FileWorkers(workers));
+    return columns;
   }
 
   /// In the order of their places.
@@ -166,9 +156,11 @@ class XdmfOriginal : public OriginalFile {
     for (const XdmfCoordinates* const one : coordinates) {
       const auto behind = std::ranges::upper_bound(shifts, one->item.begin, {}, [](const auto& s) { return s.first; });
       const std::ptrdiff_t shift = behind == shifts.begin() ? 0 : std::prev(behind)->second;
-      sites.push_back(sites_of(*one, NumberEncoding::text));
-      sites.back().offsets = one->offsets;
-      for (std::uint64_t& offset : sites.back().offsets) {
+      NumberSites& list = sites.emplace_back();
+      list.type = one->item.type.value_or(ScalarType::float64);
+      list.columns = columns_of(*one);
+      list.offsets = one->offsets;
+      for (std::uint64_t& offset : list.offsets) {
         offset += static_cast<std::uint64_t>(shift);
       }
     }
@@ -177,7 +169,11 @@ class XdmfOriginal : public OriginalFile {
       renamed.append(bytes.substr(copied));
       bytes = renamed;
     }
-    write_patched_lists(path, bytes, sites, coordinates, document, workers);
+    std::vector<PatchedSites> lists;
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      lists.push_back({sites[i], values_of(*coordinates[i], document)});
+    }
+    write_patched(path, bytes, lists, {}, FileWorkers(workers));
   }
 
   void write_heavy(std::size_t file, const std::filesystem::path& place, const MeshDocument& document,
@@ -190,38 +186,70 @@ class XdmfOriginal : public OriginalFile {
       }
       return;
     }
-    const std::vector<const XdmfCoordinates*> binary = coordinates_at(XdmfItem::Place::binary, file);
-    std::vector<NumberSites> sites;
-    for (const XdmfCoordinates* const one : binary) {
-      sites.push_back(
-          sites_of(*one, one->item.is_big_endian ? NumberEncoding::big_endian : NumberEncoding::little_endian));
-      sites.back().offsets.resize(static_cast<std::size_t>(one->item.count()));
-      for (std::size_t i = 0; i < sites.back().offsets.size(); ++i) {
-        sites.back().offsets[i] = one->item.begin + i * size_of(*one->item.type);
-      }
+    std::vector<const XdmfCoordinates*> placed = coordinates_at(XdmfItem::Place::binary, file);
+    std::deque<NumberSites> sites;
+    for (const XdmfCoordinates* const one : placed) {
+      const XdmfItem& item = one->item;
+      const std::size_t columns = one->components.size();
+      sites.push_back(binary_sites(item.is_big_endian ? NumberEncoding::big_endian : NumberEncoding::little_endian,
+                                   *item.type, item.begin, columns, static_cast<std::size_t>(item.count()) / columns,
+                                   columns_of(*one)));
     }
     const std::vector<const XdmfCoordinates*> datasets = coordinates_at(XdmfItem::Place::hdf5, file);
-    if (datasets.empty() || !binary.empty()) {
-      write_patched_lists(place, *heavy.bytes, sites, binary, document, workers);
-    }
+    std::vector<const XdmfCoordinates*> packed;
 #ifdef TRISMOOTH_HAS_HDF5
     if (!datasets.empty()) {
-      // An HDF5 file of which some numbers are named by their bytes has these by now.
-      const FileBytes patched = binary.empty() ? FileBytes() : read_file_bytes(place, FileWorkers(workers));
-      write_datasets(place, binary.empty() ? heavy.bytes->view() : patched.view(), datasets, document);
+      const Hdf5Reader reader(heavy.path, heavy.bytes->view());
+      for (const XdmfCoordinates* const one : datasets) {
+        const std::size_t columns = one->components.size();
+        auto found = hdf5_sites(reader, one->item.dataset, 0, columns,
+                                static_cast<std::size_t>(one->item.count()) / columns, columns_of(*one));
+        if (found) {
+          sites.push_back(std::move(*found));
+          placed.push_back(one);
+        } else {
+          packed.push_back(one);
+        }
+      }
     }
 #endif
+    write_placed(place, *heavy.bytes, sites, placed, document, workers);
+#ifdef TRISMOOTH_HAS_HDF5
+    if (!packed.empty()) {
+      const FileBytes patched = placed.empty() ? FileBytes() : read_file_bytes(place, FileWorkers(workers));
+      write_datasets(place, placed.empty() ? heavy.bytes->view() : patched.view(), packed, document);
+    }
+#endif
+  }
+
+  /// `sites`: of each of `coordinates`, of binary numbers.
+  static void write_placed(const std::filesystem::path& path, std::string_view bytes,
+                           const std::deque<NumberSites>& sites, std::span<const XdmfCoordinates* const> coordinates,
+                           const MeshDocument& document, Workers& workers) {
+    std::map<const NumberSites*, const XdmfCoordinates*> owners;
+    std::vector<const NumberSites*> order;
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      owners.emplace(&sites[i], coordinates[i]);
+      order.push_back(&sites[i]);
+    }
+    if (!sort_apart(order)) {
+      throw WriteError(path, "of the file that was read, coordinates of several grids overlap, which are not changed");
+    }
+    std::vector<PatchedSites> lists;
+    for (const NumberSites* const list : order) {
+      lists.push_back({*list, values_of(*owners.at(list), document)});
+    }
+    write_patched(path, bytes, lists, {}, FileWorkers(workers));
   }
 
 #ifdef TRISMOOTH_HAS_HDF5
   static void write_datasets(const std::filesystem::path& place, std::string_view bytes,
                              std::span<const XdmfCoordinates* const> datasets, const MeshDocument& document) {
-    std::optional<Hdf5Reader> reader;
     Hdf5Values changed;
     try {
-      reader.emplace(place, bytes);
+      const Hdf5Reader reader(place, bytes);
       for (const XdmfCoordinates* const one : datasets) {
-        std::vector<double> values = reader->read<double>(one->item.dataset);
+        std::vector<double> values = reader.read<double>(one->item.dataset);
         if (values.size() != one->item.count()) {
           throw ReadError(place, "another number of values");
         }
@@ -240,7 +268,7 @@ class XdmfOriginal : public OriginalFile {
     } catch (const ReadError&) {
       throw WriteError(place, "the file that was read is damaged: HDF5 has read it once, and not a second time");
     }
-    write_changed_hdf5(place, *reader, bytes, changed);
+    write_changed_hdf5(place, bytes, changed);
   }
 #endif
 

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/annotations.h"
 #include "trismooth/pipeline/stages/run_state.h"
@@ -52,6 +56,21 @@ std::vector<std::string> losses_of(RunState& run, FileFormat target, bool takes_
   return lost;
 }
 
+/// Throws where a file that is written besides the output is the input: MED or CGNS in "case.h5", and "case.xdmf".
+void require_other_than_input(const RunState& run, FileFormat target, const std::filesystem::path& path) {
+  const auto others_of = codec_of(target).other_files_of;
+  if (others_of == nullptr || run.document.format == target) {
+    return;
+  }
+  std::error_code error;  // what does not exist is not the input
+  for (const std::filesystem::path& other : others_of(path)) {
+    if (std::filesystem::equivalent(other, run.options.input, error)) {
+      throw WriteError(path, "has its numbers in " + other.filename().string() +
+                                 ", which is the input here: give the output another name");
+    }
+  }
+}
+
 }  // namespace
 
 AddedArrays annotations_of(RunState& run) {
@@ -77,6 +96,7 @@ std::vector<DataArray> metrics_of_cells(RunState& run, std::string_view suffix) 
 
 WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool annotate) {
   const FileFormat target = output_format(path, run.document.format, run.options.format);
+  require_other_than_input(run, target, path);
   const std::vector<std::string> dropped = drop_annotations(run.document);
   const bool takes_arrays = takes_added_arrays(run.document, target);
   std::ranges::move(losses_of(run, target, takes_arrays), std::back_inserter(run.result.losses));

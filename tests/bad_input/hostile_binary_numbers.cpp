@@ -114,7 +114,8 @@ class BinaryNumbers {
   Encode encode_;
   std::size_t step_;
   MeshDocument whole_;
-  std::int32_t first_index_ = file_.extension == ".meshb" ? 1 : 0;  ///< in the file, of the first vertex
+  std::int32_t first_index_ =
+      file_.extension == ".meshb" || file_.extension == ".slf" ? 1 : 0;  ///< in the file, of the first vertex
 };
 
 /// Where a number is neither a coordinate nor an index, some bytes will do. No divisor of a number's size.

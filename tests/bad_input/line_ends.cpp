@@ -20,7 +20,7 @@ bool is_text(const AcceptedFile& file) {
   const bool binary_vtk = file.extension == ".vtk" && file.bytes.find("\nBINARY") != std::string::npos;
   const bool raw = file.name.find("appended_raw") != std::string::npos;
   return !binary_vtk && !raw && !is_kept_by_hdf5(file) && file.name.find("endian") == std::string::npos &&
-         !file.name.starts_with("stl_binary") && !file.bytes.starts_with("CDF");
+         !file.name.starts_with("stl_binary") && !file.bytes.starts_with("CDF") && file.extension != ".slf";
 }
 
 bool is_line_end(char c) {

@@ -73,7 +73,7 @@ void make_deflated(hid_t file, std::vector<hsize_t> extents, std::vector<hsize_t
 }
 
 void write_changed(const std::filesystem::path& path, const std::string& bytes, const Hdf5Values& values) {
-  write_changed_hdf5(path, Hdf5Reader("a.h5", bytes), bytes, values);
+  write_changed_hdf5(path, bytes, values);
 }
 
 /// A whole number, below 2^53, held to the range of a type.
@@ -168,6 +168,26 @@ TEST_CASE(
   CHECK(Hdf5Reader("a.h5", written).read<double>("x") == values);
 }
 
+TEST_CASE("values that are packed with a loss are read, and not written over") {
+  const ScratchFolder folder;
+  const std::vector<double> values{0, 0.25, 0.5, 1};
+  const std::string bytes = foreign_file(folder, [&](hid_t file) {
+    const hsize_t count = values.size();
+    const Hdf5Handle space(H5Screate_simple(1, &count, nullptr), &H5Sclose);
+    const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+    H5Pset_chunk(properties.get(), 1, &count);
+    H5Pset_scaleoffset(properties.get(), H5Z_SO_FLOAT_DSCALE, 2);
+    const Hdf5Handle made(
+        H5Dcreate2(file, "x", H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), &H5Dclose);
+    H5Dwrite(made.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  });
+  CHECK(Hdf5Reader("a.h5", bytes).read<double>("x") == values);
+  const test_support::MemoryFile target;
+  CHECK(message_of<WriteError>([&] {
+          write_changed(target.path(), bytes, {{"x", {0, 0.25, 0.5, 1.001}}});
+        }).find("'x' is packed with a loss (scale-offset, n-bit)") != std::string::npos);
+}
+
 TEST_CASE("numbers that stand in the file as they are are written over there, and no other byte changes") {
   const ScratchFolder folder;
   // Behind a block of a program's own all places move.
@@ -184,8 +204,14 @@ TEST_CASE("numbers that stand in the file as they are are written over there, an
   CHECK((bytes.substr(place->begin, 48) == std::string_view(reinterpret_cast<const char*>(points.data()), 48)));
   values[3] = -7;
   std::memcpy(expected.data() + place->begin, values.data(), 48);
+  const auto sites =
+      trismooth::hdf5_sites(reader, "/Mesh/points", 0, 3, 2, {{.component = 0}, {.component = 1}, {.component = 2}});
+  REQUIRE(sites);
+  CHECK(
+      !trismooth::hdf5_sites(reader, "/Mesh/points", 0, 3, 3, {{.component = 0}, {.component = 1}, {.component = 2}}));
+  trismooth::Workers alone(1);
   const test_support::MemoryFile target;
-  write_changed(target.path(), bytes, {{"/Mesh/points", values}});
+  trismooth::write_patched(target.path(), bytes, *sites, values, {}, trismooth::FileWorkers(alone));
   CHECK((target.bytes() == expected));
   // With nothing changed the bytes are the same.
   write_changed(target.path(), bytes, {});

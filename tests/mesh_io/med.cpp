@@ -330,7 +330,7 @@ TEST_CASE("MED: what cannot be a mesh is refused with its place") {
   CHECK(says(refused([](SmallHdf5& file) { add_elements(file, "POG", {{1}, {2}, {3}}); }), "where its polygons begin"));
   CHECK(says(refused([](SmallHdf5& file) {
                add_elements(file, "POG", {{1}, {2}, {3}});
-               file.values(step + "/MAI/POG/IND", std::vector<std::int32_t>{1, 3, 4});
+               file.values(step + "/MAI/POG/INN", std::vector<std::int32_t>{1, 3, 4});
              }),
              "polygon 1 has fewer than 3 nodes"));
   CHECK(says(refused([](SmallHdf5& file) {

@@ -80,6 +80,19 @@ TEST_CASE("UGRID: real numbers at nodes are of places, and written back with wha
   CHECK(values_of<double>(again.point_arrays, "depth") == std::vector<double>{1, 2.5, 3, 4, 5});
 }
 
+TEST_CASE("UGRID: packed values and those of several times stay in the file, and a note names them") {
+  Coast coast;
+  const int time = coast.file.dimension("time", 0);
+  coast.file.variable("depth", float64, {coast.nodes}, {1, 2, 3, 4, 5}, {{"scale_factor", "", {2}}});
+  coast.file.variable("level", float64, {time, coast.nodes}, {1, 2, 3, 4, 5});
+  const MeshDocument document = ugrid.read(coast.file.bytes());
+  CHECK(document.point_arrays.empty());
+  REQUIRE(document.notes.size() == 2);
+  CHECK(document.notes[0].find("packed (scale_factor, add_offset) are kept in UGRID output only: depth;") !=
+        std::string::npos);
+  CHECK(document.notes[1] == "Values of several times or layers are kept in UGRID output only: level.");
+}
+
 TEST_CASE("UGRID: what is wrong is named") {
   const auto failure = [](const Coast& coast) { return ugrid.failure_of(coast.file.bytes()); };
   CHECK(failure(Coast({}, "m", {0, 1, 2, 3, 1, 5, 2, -1})) ==

@@ -246,6 +246,26 @@ TEST_CASE("XDMF: numbers in a binary file beside it are read in either order of 
   CHECK_THROWS_AS(read_mesh(in), ReadError);
 }
 
+TEST_CASE("XDMF: files that are led along to another folder replace nothing that has their names there") {
+  const ScratchFolder from;
+  from.write("notes.txt", std::string(16, '\0'));
+  const std::filesystem::path in = from.write(
+      "in.xdmf", file(grid(two_triangles + points() +
+                           "<Attribute Name=\"a\" Center=\"Node\"><DataItem Format=\"Binary\" Endian=\"Little\" "
+                           "Dimensions=\"4\">notes.txt</DataItem></Attribute>")));
+  const MeshDocument document = read_mesh(in);
+  for (const std::string& name : {std::string("out"), std::string("in")}) {
+    CAPTURE(name);
+    const ScratchFolder to;
+    to.write("notes.txt", "mine");
+    write_mesh(to / (name + ".xdmf"), document);
+    CHECK(bytes_of(to / "notes.txt") == "mine");
+    CHECK(bytes_of(to / (name + "_notes.txt")) == std::string(16, '\0'));
+    CHECK(says(bytes_of(to / (name + ".xdmf")), ">" + name + "_notes.txt<"));
+    CHECK(values_of<float>(read_mesh(to / (name + ".xdmf")).point_arrays, "a") == std::vector<float>(4));
+  }
+}
+
 TEST_CASE("XDMF: what is written from another format reads back the same, and both files appear or none") {
   MeshDocument document;
   document.format = FileFormat::vtu;
@@ -281,17 +301,18 @@ TEST_CASE("XDMF: names of values and sets that come from another format read bac
   MeshDocument document;
   document.format = FileFormat::msh;
   document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+  document.cells.append(cell_type::vertex, std::vector<std::int32_t>{3});
   document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
   document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 1, 2});
   document.cells.append(cell_type::triangle, std::vector<std::int32_t>{0, 2, 3});
-  DataArray groups = make_data_array("group", 1, std::vector<std::int32_t>{7, 7, -9});
+  DataArray groups = make_data_array("group", 1, std::vector<std::int32_t>{2, 7, 7, -9});
   ArrayDescription names;
-  names.value_names = {{7, 1, "wall <]]> & \"more\""}, {-9, 2, "copper"}, {7, 2, "steel"}};
+  names.value_names = {{2, 0, "pin"}, {7, 1, "wall <]]> & \"more\""}, {-9, 2, "copper"}, {7, 2, "steel"}};
   groups.description = std::make_shared<const ArrayDescription>(names);
   document.cell_arrays.push_back(groups);
   document.point_arrays.push_back(make_data_array("sensors", 1, std::vector<double>{1, 2, 3, 4}));
   document.point_sets = {{"sensors", {0, 3}}, {"none", {}}, {"all", {0, 1, 2, 3}}};
-  document.cell_sets = {{"group", {2}}, {"core", {1, 2}}};
+  document.cell_sets = {{"group", {3}}, {"core", {2, 3}}};
   const ScratchFolder folder;
   for (const std::string& name : {std::string("out.xdmf"), std::string("out.xdmf.gz")}) {
     CAPTURE(name);
@@ -300,7 +321,7 @@ TEST_CASE("XDMF: names of values and sets that come from another format read bac
     CHECK(read.point_sets == document.point_sets);
     CHECK(read.cell_sets == document.cell_sets);
     REQUIRE(read.cell_arrays.size() == 1);
-    CHECK(values_of<std::int32_t>(read.cell_arrays, "group") == std::vector<std::int32_t>{7, 7, -9});
+    CHECK(values_of<std::int32_t>(read.cell_arrays, "group") == std::vector<std::int32_t>{2, 7, 7, -9});
     REQUIRE(read.cell_arrays[0].description != nullptr);
     CHECK(std::ranges::is_permutation(read.cell_arrays[0].description->value_names, names.value_names));
     REQUIRE(read.point_arrays.size() == 1);

@@ -106,6 +106,24 @@ class MedTest(tool.ToolTest):
         changed = [name for name in first if not numpy.array_equal(first[name][0], second[name][0])]
         self.assertEqual([name.rsplit("/", 2)[1:] for name in changed], [["NOE", "COO"]])
 
+    def test_a_polygon_goes_both_ways(self):
+        points = medcoupling.DataArrayDouble([0, 0, 2, 0, 3, 1, 2, 2, 0, 2, 1, 1], 6, 2)
+        mesh = medcoupling_mesh(2, points, medcoupling.NORM_POLYGON, [[0, 1, 2, 3, 5], [0, 5, 3, 4]])
+        medcoupling.WriteUMesh(self.path("in.med"), mesh, True)
+        self.run_tool("smooth", "in.med", "out.off")
+        self.run_tool("smooth", "out.off", "out.med")
+        again = medcoupling.MEDFileUMesh(self.path("out.med")).getMeshAtLevel(0)
+        self.assertAlmostEqual(again.getMeasureField(True).getArray().accumulate()[0],
+                               mesh.getMeasureField(True).getArray().accumulate()[0])
+
+    def test_the_file_that_is_read_is_not_replaced_by_numbers_of_the_one_that_is_written(self):
+        self.write_medcoupling("case.h5")
+        before = self.read("case.h5")
+        said = self.run_tool("smooth", "case.h5", "case.xdmf", expect=4).err
+        self.assertIn("has its numbers in case.h5, which is the input here", said)
+        self.assertEqual(self.read("case.h5"), before)
+        self.assertFalse(os.path.exists(self.path("case.xdmf")))
+
     def test_it_reads_groups_of_what_comes_from_another_format(self):
         points, lines, marks, triangles, materials = meshio_files.plate()
         names = {"left": (1, 2), "right": (2, 2), "wall": (3, 1), "outlet": (4, 1), "inlet": (5, 1)}

@@ -65,7 +65,7 @@ void add_med_mesh(SmallHdf5& file, const MedSpelling& spelling) {
       file.group(group);
       file.values(group + "/NOD", nodes, spelling.layout);
       if (size == 5) {
-        file.values(group + "/IND", std::vector<Integer>{1, 6});
+        file.values(group + "/INN", std::vector<Integer>{1, 6});
       }
     }
   }

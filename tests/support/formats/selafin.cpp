@@ -61,8 +61,8 @@ void add_selafin(std::vector<AcceptedFile>& files) {
   const auto add = [&files](const std::string& name, const SelafinSpelling& spelling) {
     files.push_back({"selafin_" + name, ".slf", selafin_file(spelling)});
   };
-  add("single", {});
-  add("double", {.real_size = 8});
+  add("big_endian", {});
+  add("double_big_endian", {.real_size = 8});
   add("little_endian", {.is_big = false});
   add("bottom", {.variables = {"BOTTOM          M"}, .steps = 1});
   add("steps",
@@ -87,11 +87,16 @@ bool is_whole_selafin(const AcceptedFile& file, std::size_t cut) {
 }  // namespace
 
 FormatSample selafin_sample() {
-  return {.format = trismooth::FileFormat::selafin,
-          .add_files = &add_selafin,
-          .is_whole = &is_whole_selafin,
-          .cells = {{cell_type::triangle}},
-          .written_point = [](const std::array<double, 3>& point) {
+  return {
+      .format = trismooth::FileFormat::selafin,
+      .add_files = &add_selafin,
+      .is_whole = &is_whole_selafin,
+      // Values are those of the last step that is whole.
+      .rest_of =
+          [](const AcceptedFile& file) { return file.name == "selafin_steps" ? Rest::another_mesh : Rest::all_cells; },
+      .cells = {{cell_type::triangle}},
+      .written_point =
+          [](const std::array<double, 3>& point) {
             return std::array<double, 3>{point[0], point[1], 0};
           }};
 }
