@@ -186,8 +186,13 @@ def test_what_does_not_fit_is_an_exception_and_leaves_the_mesh(msh):
         mesh.smooth(regions="steel")
     with pytest.raises(ValueError, match="^fixed: vertex 9999"):
         mesh.smooth(fixed=[9999])
-    with pytest.raises(TypeError, match="no option"):
+    with pytest.raises(TypeError, match="'iterations' is no option"):
         mesh.smooth(iterations=3)
+    with pytest.raises(TypeError, match="'fixed_set' is no option .did you mean 'fixed_sets'"):
+        mesh.smooth(fixed_set="iron")
+    for names in ("iron", ["iron", "air"], np.array([b"iron"])):
+        with pytest.raises(TypeError, match="^fixed: takes flags or numbers .* names: fixed_sets="):
+            mesh.smooth(fixed=names)
     with pytest.raises(TypeError, match="^regions: "):
         mesh.smooth(regions=3)
     with pytest.raises(ValueError, match="choice of fields"):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 from contextlib import contextmanager
@@ -201,8 +202,8 @@ class Mesh:
         fixed_array : str, optional
             The point array whose nonzero values hold vertices. Default: "fixed", where there is one.
         fixed_sets : str or list of str, optional
-            Point sets that hold vertices, or "ARRAY=NUMBER": the points, and those of the cells, that the file gives that
-            number, as "medit:ref=7". Default: all sets but those of areas.
+            Point sets that hold vertices, and groups by their names; or "ARRAY=NUMBER": the points, and those of the
+            cells, that the file gives that number, as "medit:ref=7". Default: all sets but those of areas.
         merge : float, optional
             Corners of elements that are no further apart, in the file's unit, count as one vertex: they move together,
             and the mesh keeps all of them. Default: none are joined.
@@ -239,12 +240,9 @@ class Mesh:
             An OSError: for a mesh that is not planar, or has neither triangles nor quadrilaterals. The mesh is as it was, as it is wherever an
             exception is raised.
         """
-        options["method"] = method
-        options["backend"] = backend
-        options["slide"] = slide
         held = {
             "regions": regions,
-            "fixed": None if fixed is None else _arrays.on_host(fixed, "fixed"),
+            "fixed": None if fixed is None else _rows(fixed),
             "fixed_labels": None if fixed_labels is None else _labels(fixed_labels),
             "fixed_array": fixed_array,
             "fixed_sets": fixed_sets,
@@ -256,6 +254,10 @@ class Mesh:
             "project": project,
             "geographic": geographic,
         }
+        _require_options(options, held)
+        options["method"] = method
+        options["backend"] = backend
+        options["slide"] = slide
         report: Dict[str, Any] = {}
 
         def accept(outcome: Any) -> None:
@@ -301,6 +303,22 @@ class Mesh:
 
     def __repr__(self) -> str:
         return f"<trismooth.Mesh: {self.path!r}, {len(self.points)} points, {len(self.cell_types)} cells>"
+
+
+def _require_options(options: Dict[str, Any], of_mesh: Dict[str, Any]) -> None:
+    known = _core.option_names()
+    for name in options:
+        if name not in known:
+            near = difflib.get_close_matches(name, [*of_mesh, *known], n=1)
+            meant = f" (did you mean {near[0]!r}?)" if near else ""
+            raise TypeError(f"{name!r} is no option{meant}; help(trismooth.Mesh.smooth) lists them")
+
+
+def _rows(fixed: Any) -> np.ndarray:
+    array = _arrays.on_host(fixed, "fixed")
+    if array.dtype.kind in "US":
+        raise TypeError("fixed: takes flags or numbers of vertices; groups and sets by their names: fixed_sets=[...]")
+    return array
 
 
 def _labels(labels: Any) -> List[int]:
