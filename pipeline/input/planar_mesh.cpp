@@ -3,20 +3,68 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 
 namespace trismooth {
 
 namespace {
 
+/// Of VTK's cells; of types that are not known nothing is said.
+constexpr bool is_solid(std::uint8_t type) {
+  return (type >= cell_type::tetrahedron && type <= 16) ||
+         (type >= cell_type::quadratic_tetrahedron && type <= cell_type::triquadratic_hexahedron &&
+          type != cell_type::biquadratic_quad) ||
+         (type >= 31 && type <= 33) || type == 37 || type == cell_type::convex_point_set || type == 42 ||
+         (type >= cell_type::lagrange_tetrahedron && type <= cell_type::lagrange_pyramid) || (type >= 78 && type <= 81);
+}
+
+/// Throws ReadError where the mesh has solid cells: "holds 770 tetrahedra and 12 pyramids: ...".
+void refuse_solids(const CellList& cells, const std::filesystem::path& path) {
+  std::array<std::int64_t, 256> counts{};
+  for (const std::uint8_t type : cells.types) {
+    counts.at(type) += is_solid(type) ? 1 : 0;
+  }
+  const auto count_of = [&counts](std::initializer_list<std::uint8_t> types) {
+    std::int64_t count = 0;
+    for (const std::uint8_t type : types) {
+      count += std::exchange(counts[type], 0);
+    }
+    return count;
+  };
+  std::string solids;
+  const auto add = [&solids](std::int64_t count, std::string_view one, std::string_view several) {
+    if (count > 0) {
+      add_to_list(solids, counted(count, one, several));
+    }
+  };
+  using namespace cell_type;
+  add(count_of({tetrahedron, quadratic_tetrahedron, lagrange_tetrahedron}), "tetrahedron", "tetrahedra");
+  add(count_of({hexahedron, quadratic_hexahedron, triquadratic_hexahedron, lagrange_hexahedron}), "hexahedron",
+      "hexahedra");
+  add(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}),
+      solids.empty() ? "solid cell" : "other solid cell", solids.empty() ? "solid cells" : "other solid cells");
+  if (!solids.empty()) {
+    throw ReadError(path, "holds " + solids +
+                              ": a mesh of solids is not smoothed, only plane meshes of triangles and quadrilaterals "
+                              "are");
+  }
+}
+
 void lay_into_plane(PlanarMesh& mesh, const PlaneFit& fit, const MeshDocument& document,
                     const std::filesystem::path& path, Workers& workers) {
   if (!fit.is_planar()) {
+    refuse_solids(document.cells, path);
     throw ReadError(
         path,
         fit.fault() + "; only planar meshes can be smoothed, or where z is a function of x and y with --project xy");
@@ -36,6 +84,9 @@ PlanarMesh sorted_mesh(const MeshDocument& document, const std::filesystem::path
   check_document_size(document.point_count(), document.cells.size(), path);
   PlanarMesh mesh;
   static_cast<ElementCells&>(mesh) = element_cells(document, workers, quads);
+  if (mesh.elements.empty()) {
+    refuse_solids(document.cells, path);
+  }
   require_elements(static_cast<std::int64_t>(mesh.elements.size()), static_cast<std::int64_t>(document.cells.size()),
                    path, {mesh.high_order_triangles, mesh.high_order_quads, mesh.held_quads});
   if (mesh.elements.empty()) {

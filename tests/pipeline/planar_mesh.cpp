@@ -123,6 +123,26 @@ TEST_CASE("cells without any element are refused") {
   CHECK(contains(failure_of(document_of({{cell_type::triangle, {0, 1, 1}}})), "1 cell but no triangle"));
 }
 
+TEST_CASE("a mesh of solids is refused as one, with the faces of its surface or without any") {
+  const Cell tetrahedron{cell_type::tetrahedron, {0, 1, 3, 6}};
+  const Cell hexahedron{cell_type::hexahedron, {0, 1, 4, 3, 6, 7, 8, 9}};
+  const auto refusal = [](const std::vector<Cell>& cells) {
+    MeshDocument document = document_of(cells);
+    document.points.insert(document.points.end(), {0, 0, 6, 1, 0, 6, 1, 1, 6, 0, 1, 6});
+    return failure_of(document);
+  };
+  const std::string why = ": a mesh of solids is not smoothed, only plane meshes of triangles and quadrilaterals are";
+  CHECK(refusal({tetrahedron}) == "mesh.vtu: holds 1 tetrahedron" + why);
+  CHECK(refusal({{cell_type::triangle, {0, 1, 4}}, hexahedron, tetrahedron, hexahedron}) ==
+        "mesh.vtu: holds 1 tetrahedron, 2 hexahedra" + why);
+  CHECK(refusal({tetrahedron, {cell_type::wedge, {0, 1, 3, 6, 7, 9}}}) ==
+        "mesh.vtu: holds 1 tetrahedron, 1 other solid cell" + why);
+  CHECK(refusal({{cell_type::wedge, {0, 1, 3, 6, 7, 9}}}) == "mesh.vtu: holds 1 solid cell" + why);
+  // A surface, which has none, and a cell of no type that is known.
+  CHECK(contains(refusal({{cell_type::triangle, {0, 1, 4}}, {cell_type::triangle, {0, 1, 8}}}), "is not planar"));
+  CHECK(contains(refusal({{0, {0}}}), "1 cell but no triangle"));
+}
+
 TEST_CASE("a document without cells is fine: there is nothing to smooth") {
   for (const MeshDocument& document : {document_of({}), MeshDocument{}}) {
     const PlanarMesh mesh = planar_mesh(document, "mesh.off");
