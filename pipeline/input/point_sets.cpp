@@ -238,7 +238,7 @@ class SetFinder {
   }
 
   /// All sets of that name, or else the points of that label, or sets of names that differ in case, blanks and the
-  /// like.
+  /// like, or the points of the value that alone has that name.
   std::vector<std::size_t> named(const std::string& name) {
     std::vector<std::size_t> found;
     const auto find = [&](const auto& same) {
@@ -257,19 +257,27 @@ class SetFinder {
       find([plain = plain_name(name)](const std::string& other) { return plain_name(other) == plain; });
     }
     if (found.empty()) {
-      throw complain_of_set(name, names_, arrays, meant_by(arrays, name));
+      const std::vector<SetLabel> meant = meant_by(arrays, name);
+      if (is_bare_label(name, meant)) {
+        return {labelled(meant.front())};
+      }
+      std::vector<std::string> names = names_;
+      std::ranges::move(names_of_values(document_), std::back_inserter(names));
+      throw complain_of_set(name, names, arrays, meant);
     }
     return found;
   }
 
-  /// What a name may have been meant to be: an array's value of that name.
-  std::string meant_by(std::span<const std::string> arrays, const std::string& name) const {
-    const auto has_points = [&](const std::string& array) {
+  /// The values of that name, of all arrays.
+  std::vector<SetLabel> meant_by(std::span<const std::string> arrays, const std::string& name) const {
+    std::vector<SetLabel> meant;
+    for (const std::string& array : arrays) {
       const std::vector<std::uint8_t> flags = points_of_label(document_, {array, name});
-      return std::ranges::find(flags, 1) != flags.end();
-    };
-    const auto found = std::ranges::find_if(arrays, has_points);
-    return found == arrays.end() ? std::string() : SetLabel{*found, name}.name();
+      if (std::ranges::find(flags, 1) != flags.end()) {
+        meant.push_back({array, name});
+      }
+    }
+    return meant;
   }
 
   /// The set of the points of a label, which is a new one where it has not been asked for before.

@@ -195,15 +195,37 @@ std::invalid_argument complain_of_value(const SetLabel& label, std::vector<std::
                                "', whose points are to be held; '" + label.array + "' has: " + first_of(values));
 }
 
-std::invalid_argument complain_of_set(const std::string& name, std::span<const std::string> sets,
-                                      std::span<const std::string> arrays, const std::string& meant) {
+std::vector<std::string> names_of_values(const MeshDocument& document) {
+  std::vector<std::string> names;
+  for (const DataArray& array : document.cell_arrays) {
+    std::ranges::transform(names_in(document, array.name), std::back_inserter(names), &ValueName::name);
+  }
+  for (const LabelArray& array : document.cell_labels) {
+    std::ranges::copy_if(array.labels, std::back_inserter(names),
+                         [](const std::string& label) { return !number_in<double>(label); });
+  }
+  if (!document.cell_sets.empty()) {
+    std::ranges::transform(find_cell_groups(document).groups, std::back_inserter(names), &CellGroup::name);
+  }
+  std::erase(names, "");
+  put_in_order(names);
+  return names;
+}
+
+bool is_bare_label(std::string_view name, std::span<const SetLabel> meant) {
+  return meant.size() == 1 && !number_in<double>(name);
+}
+
+std::invalid_argument complain_of_set(const std::string& name, std::span<const std::string> names,
+                                      std::span<const std::string> arrays, std::span<const SetLabel> meant) {
+  const std::string there_is_none = "the file has no point set '" + name + "' to hold";
   if (!meant.empty()) {
-    return std::invalid_argument("the file has no point set '" + name + "' to hold; did you mean '" + meant + "'?");
+    const auto quoted_name = [](const SetLabel& label) { return "'" + label.name() + "'"; };
+    return std::invalid_argument(there_is_none + "; did you mean " + list_text(meant, quoted_name, " or ") + "?");
   }
   const std::string labels =
       arrays.empty() ? "" : "; points are named as ARRAY=NUMBER, or ARRAY=NAME, by its arrays: " + first_of(arrays);
-  return std::invalid_argument("the file has no point set '" + name + "' to hold" + did_you_mean(name, sets) +
-                               "; it has: " + first_of(sets) + labels);
+  return std::invalid_argument(there_is_none + did_you_mean(name, names) + "; it has: " + first_of(names) + labels);
 }
 
 }  // namespace trismooth

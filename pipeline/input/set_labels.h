@@ -46,9 +46,15 @@ std::vector<std::string> label_values(const MeshDocument& document, std::string_
 /// The error of a label that nothing has, which lists `values`, of one document or of several.
 std::invalid_argument complain_of_value(const SetLabel& label, std::vector<std::string> values);
 
-/// The error of a name that neither a set has nor an array that gives labels. It lists these, and says what was `meant`
-/// where that is known.
-std::invalid_argument complain_of_set(const std::string& name, std::span<const std::string> sets,
-                                      std::span<const std::string> arrays, const std::string& meant = {});
+/// The names that the document has for values of arrays of cells, each once, in order: those of groups.
+std::vector<std::string> names_of_values(const MeshDocument& document);
+
+/// Whether a name stands for the value of that name without its array: where just one array has it. Numbers do not.
+bool is_bare_label(std::string_view name, std::span<const SetLabel> meant);
+
+/// The error of a name that neither a set has nor an array that gives labels: `names` are those of sets and of values.
+/// It lists these, and says which labels are `meant` where these are known.
+std::invalid_argument complain_of_set(const std::string& name, std::span<const std::string> names,
+                                      std::span<const std::string> arrays, std::span<const SetLabel> meant);
 
 }  // namespace trismooth

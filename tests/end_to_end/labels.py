@@ -170,8 +170,9 @@ class Labels(tool.ToolTest):
                     members = {f"{array}=6": area | {8}, f"{array}=4": set(range(9))}
                     self.assert_sets_hold(name, members, *members)
         self.assert_sets_hold("in.msh", {"gmsh:physical=coil": area}, "gmsh:physical=coil")
-        said = self.run_tool("smooth", "in.msh", "out.msh", "--fixed-set", "coil", expect=WRONG_USAGE).err
-        self.assertIn("no point set 'coil' to hold; did you mean 'gmsh:physical=coil'?", said)
+        self.assert_sets_hold("in.msh", {"gmsh:physical=coil": area}, "coil")
+        said = self.run_tool("smooth", "in.msh", "out.msh", "--fixed-set", "coli", expect=WRONG_USAGE).err
+        self.assertIn("no point set 'coli' to hold (did you mean 'coil'?); it has: coil, wall; ", said)
 
     def test_a_material_of_obj_is_named_as_in_the_file(self):
         lines = "".join(f"v {x} {y} {z}\n" for x, y, z in self.grid.points)

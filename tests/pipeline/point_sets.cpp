@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -193,6 +194,37 @@ TEST_CASE("a label holds points, points of lines and of triangles; a set of that
   for (const char* const name : {"velocity=2", "trismooth:fixed=2", "=2", "ref=", "ref"}) {
     CHECK_THROWS_AS(held(name), std::invalid_argument);
   }
+}
+
+TEST_CASE("a name that one array alone has for a value holds without the array, and names are listed and suggested") {
+  const auto triangles = grid_triangles(4);
+  MeshDocument document = with_sets(4, {{"Corners", {15}}});
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
+  document.cells.append(cell_type::triangle, std::vector<std::int32_t>{5, 6, 10});
+  ArrayDescription names;
+  names.value_names = {{1, 1, "clamped"}, {7, 2, "inclusion"}};
+  document.cell_arrays.push_back(make_data_array("med:group", 1, std::vector<std::int32_t>{1, 7}));
+  document.cell_arrays[0].description = std::make_shared<const ArrayDescription>(names);
+  const auto held = [&](const std::string& name) {
+    return find_held_sets(document, triangles, std::vector<std::string>{name});
+  };
+  const auto refusal = [&](const std::string& name) { return message_of<std::invalid_argument>([&] { held(name); }); };
+  CHECK(held("clamped").flags == held("med:group=clamped").flags);
+  CHECK(std::ranges::count(held("clamped").flags, 1) == 2);
+  CHECK(std::ranges::count(held("inclusion").flags, 1) == 3);
+  CHECK(held("clamped").sets.back().name == "med:group=clamped");
+  CHECK(refusal("claped") ==
+        "the file has no point set 'claped' to hold (did you mean 'clamped'?); it has: Corners, clamped, inclusion; "
+        "points are named as ARRAY=NUMBER, or ARRAY=NAME, by its arrays: med:group");
+  // A number is no name.
+  CHECK(refusal("7") == "the file has no point set '7' to hold; did you mean 'med:group=7'?");
+  // Nor does a name hold that two arrays have, nor one that a set has.
+  document.cell_arrays.push_back(document.cell_arrays[0]);
+  document.cell_arrays[1].name = "other";
+  CHECK(refusal("clamped") ==
+        "the file has no point set 'clamped' to hold; did you mean 'med:group=clamped' or 'other=clamped'?");
+  document.point_sets[0].name = "Clamped";
+  CHECK(held("clamped").sets[0].holds);
 }
 
 }  // namespace trismooth::point_sets_test

@@ -74,18 +74,48 @@ std::vector<std::string> values_of_all(const PieceFiles& files, const std::strin
   return texts_of_all(values, ranks);
 }
 
+/// The values of that name, of all arrays. Collective.
+std::vector<SetLabel> meant_by(const PieceFiles& files, std::span<const std::string> arrays, const std::string& name,
+                               const mpi::Communicator& ranks) {
+  std::vector<SetLabel> meant;
+  for (const std::string& array : arrays) {
+    const auto has_points = [&](const Piece& piece) {
+      const std::vector<std::uint8_t> flags = points_of_label(piece.document, {array, name}, piece.ghost_cells);
+      return std::ranges::find(flags, 1) != flags.end();
+    };
+    if (ranks.any(std::ranges::any_of(files.pieces, has_points))) {
+      meant.push_back({array, name});
+    }
+  }
+  return meant;
+}
+
+/// The label of a name: nothing for `no_sets`. Collective. Throws std::invalid_argument on all ranks.
+std::optional<SetLabel> label_of(const PieceFiles& files, std::span<const std::string> arrays, const std::string& name,
+                                 const mpi::Communicator& ranks) {
+  std::optional<SetLabel> label = find_label(arrays, name);
+  if (label || name == no_sets) {
+    return label;
+  }
+  const std::vector<SetLabel> meant = meant_by(files, arrays, name, ranks);
+  if (is_bare_label(name, meant)) {
+    return meant.front();
+  }
+  std::set<std::string> own;
+  for (const Piece& piece : files.pieces) {
+    std::ranges::move(names_of_values(piece.document), std::inserter(own, own.end()));
+  }
+  const std::vector<std::string> names = texts_of_all(own, ranks);
+  agree(ranks, [&] { throw complain_of_set(name, names, arrays, meant); });
+  return std::nullopt;
+}
+
 /// Of pieces: what one file holds by sets is known.
 void hold_by_labels(const PieceFiles& files, const std::vector<std::string>& names, const mpi::Communicator& ranks,
                     RankConstraints& constraints) {
   const std::vector<std::string> arrays = label_arrays_of(files);
   for (const std::string& name : names) {
-    std::optional<SetLabel> label;
-    agree(ranks, [&] {
-      label = find_label(arrays, name);
-      if (!label && name != no_sets) {
-        throw complain_of_set(name, {}, arrays);
-      }
-    });
+    const std::optional<SetLabel> label = label_of(files, arrays, name, ranks);
     if (!label || std::ranges::count(constraints.sets, label->name(), &LabelledVertices::name) != 0) {
       continue;
     }
