@@ -8,6 +8,7 @@
 
 #include "trismooth/base/text/suggestion.h"
 #include "trismooth/mesh_io/bytes/compressed_file.h"
+#include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
@@ -36,7 +37,7 @@ std::string describe_unknown_extension(const std::filesystem::path& path) {
 
 std::string describe_unavailable(FileFormat format) {
   return "this program was built without " + std::string(codec_of(format).description.library) + ", which " +
-         std::string(extensions_of(format).front()) + " needs; available are " + titled_format_list();
+         std::string(extensions_of(format).front()) + " needs; available are " + format_names();
 }
 
 bool is_recognised(FileFormat format, std::string_view bytes) {
@@ -74,7 +75,20 @@ std::optional<FileFormat> only_one_recognised(std::string_view bytes) {
   const bool is_stream = path == shown_input("-");
   throw ReadError(path, (is_stream ? "the content does not show its format"
                                    : describe_unknown_extension(path) + ", and the content does not show one") +
-                            "; --format NAME tells it: " + format_names() + "; known are " + titled_format_list());
+                            "; --format NAME tells it: " + format_names());
+}
+
+/// Throws ReadError for what no format is that is read. The numbers of an XDMF mesh are beside it under its name.
+[[noreturn]] void fail_unread(const std::filesystem::path& path, std::string_view bytes, const UnreadFormat& unread) {
+  if (is_hdf5(bytes)) {
+    for (const std::string_view extension : extensions_of(FileFormat::xdmf)) {
+      const std::filesystem::path beside = std::filesystem::path(path).replace_extension(extension);
+      if (std::error_code error; std::filesystem::exists(beside, error)) {
+        throw ReadError(path, "has numbers of an XDMF mesh: give " + beside.string());
+      }
+    }
+  }
+  throw ReadError(path, describe_unread(unread));
 }
 
 /// Whether bytes at the beginning are zero, which no text has.
@@ -119,7 +133,7 @@ FormatChoice choose_format(const std::filesystem::path& path, std::string_view b
   const auto unread = unread_format(bytes, named);
   const bool is_no_text = unread && has_zeros(bytes);
   if (is_no_text && !only_one_recognised(bytes)) {
-    throw ReadError(path, describe_unread(*unread));
+    fail_unread(path, bytes, *unread);
   }
   // What is told is of the output, too, which is to be of another format then.
   if (named.size() == 1 && !is_told && !is_no_text && is_available(named.front()) &&
@@ -138,7 +152,7 @@ FormatChoice choose_format(const std::filesystem::path& path, std::string_view b
     fail_unknown(path, bytes);
   }
   if (unread) {
-    throw ReadError(path, describe_unread(*unread));
+    fail_unread(path, bytes, *unread);
   }
   if (!is_available(*first)) {
     throw ReadError(path, describe_unavailable(*first));
@@ -186,8 +200,7 @@ FileFormat output_format(const std::filesystem::path& path, std::optional<FileFo
   if (const auto unread = unread_format_of(path)) {
     throw WriteError(path, describe_unwritten(*unread));
   }
-  throw WriteError(path,
-                   describe_unknown_extension(path) + "; --format NAME tells it; known are " + titled_format_list());
+  throw WriteError(path, describe_unknown_extension(path) + "; --format NAME tells it; known are " + format_list());
 }
 
 }  // namespace trismooth

@@ -92,6 +92,9 @@ std::optional<UnreadFormat> unread_format_of(const std::filesystem::path& path) 
 
 std::optional<UnreadFormat> recognise_unread_format(std::string_view bytes) {
   const std::string_view head = text_head(bytes);
+  if (is_hdf5(bytes) && bytes.find("_NCProperties") != bytes.npos) {
+    return netcdf;
+  }
   if (is_hdf5(bytes)) {
     return UnreadFormat{"HDF5 without a mesh of Exodus II, UGRID, MED or CGNS (of XDMF give the .xdmf file)", ""};
   }
@@ -118,11 +121,11 @@ std::optional<UnreadFormat> recognise_unread_format(std::string_view bytes) {
 
 std::string describe_unread(const UnreadFormat& format) {
   return "is " + std::string(format.title) + ", which is not read" + describe_converter(format) + "; known are " +
-         titled_format_list();
+         format_names();
 }
 
 std::string describe_unwritten(const UnreadFormat& format) {
-  return std::string(format.title) + " is not written; known are " + titled_format_list();
+  return std::string(format.title) + " is not written; known are " + format_names();
 }
 
 }  // namespace trismooth

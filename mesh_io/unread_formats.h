@@ -21,10 +21,10 @@ std::optional<UnreadFormat> unread_format_of(const std::filesystem::path& path);
 /// The one that the bytes begin as, or nothing.
 std::optional<UnreadFormat> recognise_unread_format(std::string_view bytes);
 
-/// "Exodus II is not read; 'meshio convert in.exo out.vtu' makes a file that is; known are OFF (.off), ...".
+/// "Exodus II is not read; 'meshio convert in.exo out.vtu' makes a file that is; known are off, obj, ...".
 std::string describe_unread(const UnreadFormat& format);
 
-/// "Exodus II is not written; known are OFF (.off), ...".
+/// "Exodus II is not written; known are off, obj, ...".
 std::string describe_unwritten(const UnreadFormat& format);
 
 }  // namespace trismooth

@@ -163,7 +163,7 @@ void require_known_formats(const PipelineOptions& options) {
   if (output && says_nothing(options.input) && says_nothing(*output)) {
     throw ReadError(options.input, "the extension '" + extension_of(options.input) +
                                        "' names no format, nor does that of the output, " + output->string() +
-                                       "; known are " + titled_format_list());
+                                       "; known are " + format_list());
   }
   for (const auto& input : {std::optional(options.input), options.compared}) {
     if (input && format_of(*input)) {

@@ -133,8 +133,12 @@ namespace {
 constexpr const char* needs_plain_files = "the mesh is several files, which are written as plain files, uncompressed";
 
 void require_plain_name(const std::filesystem::path& path) {
-  if (is_standard_stream(path) || names_gzip(path)) {
-    throw WriteError(shown_output(path), needs_plain_files);
+  if (is_standard_stream(path)) {
+    throw WriteError(shown_output(path),
+                     std::string(needs_plain_files) + ": give the output a name, or another format by --format NAME");
+  }
+  if (names_gzip(path)) {
+    throw WriteError(path, std::string(needs_plain_files) + ": leave out '.gz'");
   }
 }
 

@@ -12,6 +12,7 @@
 #include "trismooth/mesh_io/bytes/byte_order.h"
 #include "trismooth/mesh_io/bytes/saturating_product.h"
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/plain_rows.h"
@@ -130,7 +131,8 @@ std::string_view XdmfItems::bytes_of(std::size_t file, std::size_t line) {
   if (!heavy.bytes) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(heavy.path, error)) {
-      fail(line, "its numbers are in " + heavy.name + ", which is not beside it");
+      fail(line, "its numbers are in " + heavy.name +
+                     (file_ == shown_input("-") ? ", which is not in the current folder" : ", which is not beside it"));
     }
     heavy.bytes = read_file_bytes(heavy.path, workers_);
     // As much as compression makes of its bytes: one dataset may have many names.

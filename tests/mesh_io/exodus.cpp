@@ -198,8 +198,7 @@ TEST_CASE(
 
 TEST_CASE("Exodus: what is wrong is named, with its block, set or node") {
   CHECK(exodus.failure_of(NetcdfBuilder(2).bytes()) ==
-        "mesh.exo: is NetCDF without a mesh of Exodus II or UGRID, which is not read; known are " +
-            titled_format_list());
+        "mesh.exo: is NetCDF without a mesh of Exodus II or UGRID, which is not read; known are " + format_names());
   const auto failure = [](const auto& add) {
     Plate plate;
     add(plate);

@@ -2,6 +2,7 @@
 #include "trismooth/mesh_io/format_choice.h"
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <string>
 #include <utility>
@@ -187,13 +188,13 @@ TEST_CASE("an unknown extension is told with all that are known, and the one tha
   CHECK(refusal("mesh.foo", "?") ==
         "mesh.foo: the extension '.foo' names no format, and the content does not show one; "
         "--format NAME tells it: " +
-            trismooth::format_names() + "; known are " + trismooth::titled_format_list());
+            trismooth::format_names());
   CHECK(says(refusal("mesh.offf", "?"), "the extension '.offf' names no format (did you mean '.off'?)"));
   CHECK(says(refusal("mesh", "?"), "mesh: has no extension that names a format"));
   CHECK(says(trismooth::titled_format_list(), "OFF (.off), OBJ (.obj), PLY (.ply), STL (.stl), legacy VTK (.vtk)"));
   const std::string message = message_of<WriteError>([] { output_format("out.foo"); });
-  CHECK(message == "out.foo: the extension '.foo' names no format; --format NAME tells it; known are " +
-                       trismooth::titled_format_list());
+  CHECK(message ==
+        "out.foo: the extension '.foo' names no format; --format NAME tells it; known are " + trismooth::format_list());
 }
 
 TEST_CASE("formats that are known and not read are named, with a way to a file that is") {
@@ -201,8 +202,9 @@ TEST_CASE("formats that are known and not read are named, with a way to a file t
   CHECK(refused ==
         "plate.VOL: is Netgen, which is not read; 'meshio convert in.vol out.vtu' makes a file that is; "
         "known are " +
-            trismooth::titled_format_list());
-  CHECK(says(refusal("plate.cdb", "?"), "plate.cdb: is an Ansys archive (CDB), which is not read; known are OFF"));
+            trismooth::format_names());
+  CHECK(
+      says(refusal("plate.cdb", "?"), "plate.cdb: is an Ansys archive (CDB), which is not read; known are off, obj, "));
   const std::map<std::string, std::string> by_content{
       {"\x89HDF\r\n\x1a\n....", "is HDF5"},
       {"CDF\x02....", "is NetCDF without a mesh"},
@@ -230,7 +232,17 @@ TEST_CASE("formats that are known and not read are named, with a way to a file t
     CHECK_FALSE(trismooth::recognise_unread_format(bytes));
   }
   CHECK(says(message_of<WriteError>([] { output_format("out.cdb"); }),
-             "out.cdb: an Ansys archive (CDB) is not written; known are OFF"));
+             "out.cdb: an Ansys archive (CDB) is not written; known are off, obj"));
+}
+
+TEST_CASE("numbers of an XDMF mesh lead to it, and netCDF-4 is not called HDF5") {
+  const ScratchFolder folder;
+  const std::string hdf5 = "\x89HDF\r\n\x1a\n....";
+  CHECK(says(refusal(folder / "box.h5", hdf5), "(of XDMF give the .xdmf file)"));
+  std::ofstream(folder / "box.xmf") << "<Xdmf/>";
+  CHECK(refusal(folder / "box.h5", hdf5) ==
+        (folder / "box.h5").string() + ": has numbers of an XDMF mesh: give " + (folder / "box.xmf").string());
+  CHECK(says(refusal(folder / "wind.nc4", hdf5 + "_NCProperties"), "is NetCDF without a mesh"));
 }
 
 TEST_CASE("no extension of a format that is read names one that is not") {

@@ -60,8 +60,9 @@ TEST_CASE("an unknown extension is refused where the content is unknown, too; th
     const std::string write_message = message_of<WriteError>([&] { write_mesh(folder / name, document); });
     for (const std::string& message : {read_message, write_message}) {
       CHECK(message.find((folder / name).string() + ": ") == 0);
-      CHECK(message.find("OFF (.off), OBJ (.obj)") != std::string::npos);
     }
+    CHECK(read_message.find(": off, obj, ") != std::string::npos);
+    CHECK(write_message.find("known are .off, .obj, ") != std::string::npos);
     CHECK(bytes_of(folder / name) == unknown);
   }
 }

@@ -229,6 +229,10 @@ TEST_CASE("Triangle: two files do not go through a pipe") {
   REQUIRE(::mkfifo((folder / "out.node").c_str(), 0600) == 0);
   CHECK(message_of<WriteError>([&] { write_mesh(folder / "out.node", document); }) ==
         (folder / "out.node").string() + ": the mesh is several files, which are written as plain files, uncompressed");
+  CHECK(message_of<WriteError>([&] { write_mesh("-", document); }) ==
+        "standard output: the mesh is several files, which are written as plain files, uncompressed: give the output a "
+        "name, or another format by --format NAME");
+  CHECK(says(message_of<WriteError>([&] { write_mesh(folder / "out.node.gz", document); }), "leave out '.gz'"));
 }
 
 TEST_CASE("Triangle output: groups of triangles are the attribute, other things are named as lost") {

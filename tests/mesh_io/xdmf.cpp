@@ -221,6 +221,9 @@ TEST_CASE("XDMF: only files beside the file are read") {
     CHECK(says(failure(with(name)), "only files beside this one are read"));
   }
   CHECK(says(failure(with("none.h5")), "none.h5, which is not beside it"));
+  CHECK(says(
+      message_of<ReadError>([&] { codec_of(FileFormat::xdmf).read("standard input", FileBytes(with("none.h5"))); }),
+      "standard input:1: its numbers are in none.h5, which is not in the current folder"));
 }
 
 TEST_CASE("XDMF: numbers in a binary file beside it are read in either order of bytes, and led along") {

@@ -281,7 +281,7 @@ TEST_CASE("where neither input nor output is of a known format, both are told, a
   CHECK(both.code == 3);
   CHECK(
       both.says("missing.xyz: the extension '.xyz' names no format, nor does that of the output, out.abc; known are "
-                "OFF (.off)"));
+                ".off, .obj"));
   const Outcome input = call({"quality", "missing.xyz"}, &trismooth::run_pipeline);
   CHECK(input.code == 3);
   CHECK(input.says("missing.xyz: cannot be opened"));
@@ -290,7 +290,7 @@ TEST_CASE("where neither input nor output is of a known format, both are told, a
 TEST_CASE("an output of no known format is told before the work") {
   const Outcome outcome = call({"smooth", "missing.vtk", "out.xyz"}, &trismooth::run_pipeline);
   CHECK(outcome.code == 4);
-  CHECK(outcome.says("out.xyz: the extension '.xyz' names no format; --format NAME tells it; known are OFF (.off)"));
+  CHECK(outcome.says("out.xyz: the extension '.xyz' names no format; --format NAME tells it; known are .off, .obj"));
   const Outcome compressed = call({"smooth", "missing.off", "out.off.xz"}, &trismooth::run_pipeline);
   CHECK(compressed.code == 4);
   CHECK(compressed.says("out.off.xz: nothing is written compressed but by gzip (.gz); leave out '.xz'"));
