@@ -8,12 +8,12 @@
 
 namespace trismooth {
 
-CgnsArrays plan_cgns_arrays(const std::vector<DataArray>& arrays, std::string_view left_out) {
+CgnsArrays plan_cgns_arrays(const std::vector<DataArray>& arrays, const GroupArrays& left_out) {
   CgnsArrays plan;
   FreeNames taken;
   std::vector<std::string> names;
   for (const DataArray& array : arrays) {
-    if (!left_out.empty() && array.name == left_out) {
+    if (left_out.has(array.name)) {
       continue;
     }
     const bool is_vector = array.components == 2 || array.components == 3;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -29,8 +30,8 @@ struct CgnsArrays {
   std::vector<std::string> split;         ///< "stress (stress_1 to stress_4)": do not come back as one array
 };
 
-/// All of `arrays`, which outlive the result, but the one of the name `left_out`. Arrays of two and three components
+/// All of `arrays`, which outlive the result, but those that groups are from. Arrays of two and three components
 /// have "X", "Y" and "Z" behind their name, as the SIDS wants vectors. Complexity: n log n in the components.
-CgnsArrays plan_cgns_arrays(const std::vector<DataArray>& arrays, std::string_view left_out);
+CgnsArrays plan_cgns_arrays(const std::vector<DataArray>& arrays, const GroupArrays& left_out);
 
 }  // namespace trismooth

@@ -114,14 +114,14 @@ class CgnsWriter {
     write_groups();
     std::vector<std::size_t> rows(document_.point_count());
     std::iota(rows.begin(), rows.end(), std::size_t{0});
-    write_arrays("PointData", "Vertex", plan_cgns_arrays(document_.point_arrays, ""), rows);
+    write_arrays("PointData", "Vertex", plan_cgns_arrays(document_.point_arrays, {}), rows);
     rows.clear();
     for (const WrittenSection& section : sections) {
       std::ranges::copy_if(section.cells, std::back_inserter(rows), [this](std::size_t cell) {
         return cell_type::dimension(document_.cells.types[cell]) == dimension_;
       });
     }
-    write_arrays("CellData", "CellCenter", plan_cgns_arrays(document_.cell_arrays, lists_.array), rows);
+    write_arrays("CellData", "CellCenter", plan_cgns_arrays(document_.cell_arrays, lists_.arrays), rows);
     file_.close();
   }
 
@@ -353,13 +353,13 @@ std::vector<std::string> lost_in_cgns(const MeshDocument& document) {
   const GroupLists lists = list_groups(document);
   std::vector<std::string> sentences =
       describe_lost_cells("CGNS", "points, lines, faces and solids", types, document.cells);
-  const CgnsArrays of_points = plan_cgns_arrays(document.point_arrays, "");
-  const CgnsArrays of_cells = plan_cgns_arrays(document.cell_arrays, lists.array);
+  const CgnsArrays of_points = plan_cgns_arrays(document.point_arrays, {});
+  const CgnsArrays of_cells = plan_cgns_arrays(document.cell_arrays, lists.arrays);
   MeshDocument others;
   others.field_arrays = document.field_arrays;
   std::ranges::move(describe_lost_arrays("CGNS", others), std::back_inserter(sentences));
   std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
-                       [&lists](const DataArray& array) { return array.name != lists.array; });
+                       [&lists](const DataArray& array) { return !lists.arrays.has(array.name); });
   std::ranges::move(describe_lost_names("CGNS", others), std::back_inserter(sentences));
   if (const std::size_t cells = count_cells_below(document.cells); cells > 0 && !of_cells.components.empty()) {
     sentences.push_back("CGNS has values of the cells of the highest dimension: those of cell arrays at " +

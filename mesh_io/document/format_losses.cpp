@@ -12,11 +12,11 @@ namespace trismooth {
 
 namespace {
 
-/// Those without the one of that name.
-std::vector<const DataArray*> arrays_but(std::optional<std::string_view> name, const std::vector<DataArray>& arrays) {
+template <class IsHeld>
+std::vector<const DataArray*> arrays_but(const IsHeld& is_held, const std::vector<DataArray>& arrays) {
   std::vector<const DataArray*> others;
   for (const DataArray& array : arrays) {
-    if (!name || array.name != *name) {
+    if (!is_held(array.name)) {
       others.push_back(&array);
     }
   }
@@ -41,9 +41,11 @@ std::vector<std::string> describe_lost_arrays(std::string_view format, const Mes
   const auto tell_of = [&](std::string_view what, const std::vector<const DataArray*>& arrays) {
     describe(sentences, format, what, arrays, [](const DataArray* array) { return shown_name(*array); });
   };
-  tell_of("point arrays", arrays_but(held.point, document.point_arrays));
-  tell_of("cell arrays", arrays_but(held.cell, document.cell_arrays));
-  tell_of("field arrays", arrays_but(std::nullopt, document.field_arrays));
+  tell_of("point arrays",
+          arrays_but([&held](const std::string& name) { return held.point == name; }, document.point_arrays));
+  tell_of("cell arrays",
+          arrays_but([&held](const std::string& name) { return held.cell.has(name); }, document.cell_arrays));
+  tell_of("field arrays", arrays_but([](const std::string&) { return false; }, document.field_arrays));
   return sentences;
 }
 

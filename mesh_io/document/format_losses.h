@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -24,10 +25,10 @@ std::string_view shown_name(const Named& named) {
   return named.name.empty() ? std::string_view("(no name)") : named.name;
 }
 
-/// The array of points and that of cells that a format does hold, by their names: as depths, as groups.
+/// The array of points and those of cells that a format does hold, by their names: as depths, as groups.
 struct HeldArrays {
   std::optional<std::string_view> point{};
-  std::optional<std::string_view> cell{};
+  GroupArrays cell{};
 };
 
 /// One sentence for every kind of array that the document has, naming the arrays: "OFF holds no cell arrays: region

@@ -40,10 +40,9 @@ std::vector<std::string> describe_unlabelled_arrays(std::string_view format, con
       rest.point_arrays.push_back(array);
     }
   }
-  const DataArray* const grouped = groups.array.empty() ? nullptr : find_array(document.cell_arrays, groups.array);
   MeshDocument named;
   for (const DataArray& array : document.cell_arrays) {
-    (&array == grouped ? named : rest).cell_arrays.push_back(array);
+    (groups.arrays.has(array.name) ? named : rest).cell_arrays.push_back(array);
   }
   rest.field_arrays = document.field_arrays;
   std::vector<std::string> sentences = describe_lost_arrays(format, rest);

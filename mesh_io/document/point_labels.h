@@ -19,8 +19,9 @@ const DataArray* find_point_labels(const MeshDocument& document);
 /// The value of such an array.
 std::int64_t point_label(const DataArray& labels, std::size_t point);
 
-/// One sentence for every kind of array that the document has beside `labels` (which may be null) and that of the
-/// groups, and one for the names of these: what a format does not hold that has a number for a point and for a cell.
+/// One sentence for every kind of array that the document has beside `labels` (which may be null) and those of
+/// the groups, and one for the names of these: what a format does not hold that has a number for a point and for a
+/// cell.
 std::vector<std::string> describe_unlabelled_arrays(std::string_view format, const MeshDocument& document,
                                                     const DataArray* labels, const CellGroups& groups);
 

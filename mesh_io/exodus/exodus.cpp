@@ -42,11 +42,11 @@ std::string component_name(const DataArray& array, std::size_t component) {
   return array.name + (array.components <= axes.size() ? axes.at(component) : "_" + std::to_string(component + 1));
 }
 
-std::vector<WrittenComponent> components_of(const std::vector<DataArray>& arrays, const std::string& but) {
+std::vector<WrittenComponent> components_of(const std::vector<DataArray>& arrays, const GroupArrays& but) {
   std::vector<WrittenComponent> all;
   FreeNames names;
   for (const DataArray& array : arrays) {
-    for (std::size_t component = 0; component < array.components && (but.empty() || array.name != but); ++component) {
+    for (std::size_t component = 0; component < array.components && !but.has(array.name); ++component) {
       all.push_back({&array, component, names.claim(component_name(array, component))});
     }
   }
@@ -59,8 +59,8 @@ class ExodusWriter {
   explicit ExodusWriter(const MeshDocument& document)
       : document_(document),
         plan_(make_exodus_plan(document)),
-        at_nodes_(components_of(document.point_arrays, "")),
-        at_elements_(components_of(document.cell_arrays, plan_.group_array)) {}
+        at_nodes_(components_of(document.point_arrays, {})),
+        at_elements_(components_of(document.cell_arrays, plan_.group_arrays)) {}
 
   void write(const std::filesystem::path& path, const FileWorkers& workers) {
     add_head();
@@ -286,7 +286,7 @@ std::vector<std::string> lost_in_exodus(const MeshDocument& document) {
   std::string whole;
   for (const auto* arrays : {&document.point_arrays, &document.cell_arrays}) {
     for (const DataArray& array : *arrays) {
-      if (is_whole(array) && (arrays == &document.point_arrays || array.name != plan.group_array)) {
+      if (is_whole(array) && (arrays == &document.point_arrays || !plan.group_arrays.has(array.name))) {
         add_to_list(whole, shown_name(array));
       }
     }

@@ -10,7 +10,6 @@
 
 #include "trismooth/base/text/letter_case.h"
 #include "trismooth/base/text/list_text.h"
-#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
 
 namespace trismooth {
@@ -52,7 +51,7 @@ class Planner {
       : document_(document), cells_(document.cells), groups_(find_cell_groups(document)) {}
 
   ExodusPlan plan() {
-    plan_.group_array = groups_.array;
+    plan_.group_arrays = groups_.arrays;
     find_lines_of_sets();
     find_sides();
     make_blocks();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/exodus/exodus_elements.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
@@ -32,7 +33,7 @@ struct ExodusPlanSet {
 /// of them under the group's number and name. Lines of a group, or of a set, that
 /// are sides of faces become a side set, as programs want boundaries; all other lines are blocks.
 struct ExodusPlan {
-  std::string group_array;  ///< the cell array that blocks and side sets are from; empty: none
+  GroupArrays group_arrays;  ///< the cell arrays that blocks and side sets are from
   std::vector<ExodusPlanBlock> blocks;
   std::vector<std::int32_t> element_of;  ///< of each cell, from 0; -1: none
   std::size_t elements = 0;

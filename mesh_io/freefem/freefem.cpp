@@ -47,7 +47,7 @@ void write_freefem(const std::filesystem::path& path, const MeshDocument& docume
       for (const std::int32_t vertex : cells[cell]) {
         lines.number(std::int64_t{vertex} + 1);
       }
-      const std::int32_t group = groups.array.empty() ? -1 : groups.of_cell[cell];
+      const std::int32_t group = groups.of_cell.empty() ? -1 : groups.of_cell[cell];
       lines.number(group < 0 ? 0 : groups.groups[static_cast<std::size_t>(group)].number).end_line();
     });
   }

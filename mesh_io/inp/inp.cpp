@@ -34,7 +34,7 @@ struct WrittenInpSets {
   InpSetNames point_names;
   std::vector<WrittenInpSet> of_cells;
   std::vector<WrittenInpSet> of_points;
-  std::string array;  ///< whose groups they are from; empty: none
+  GroupArrays arrays;  ///< whose groups they are from
 };
 
 bool is_point_cell(std::uint8_t type) {
@@ -42,7 +42,8 @@ bool is_point_cell(std::uint8_t type) {
 }
 
 std::string group_name(const CellGroups& groups, const CellGroup& group) {
-  return group.name.empty() ? groups.array + "_" + std::to_string(group.number) : group.name;
+  const std::string& array = groups.arrays.of_dimension.at(static_cast<std::size_t>(group.dimension));
+  return group.name.empty() ? array + "_" + std::to_string(group.number) : group.name;
 }
 
 /// Adds the cells as an element set, and vertex cells among them as a node set.
@@ -73,7 +74,7 @@ void add_set(const CellList& cells, const std::string& name, const std::vector<s
 WrittenInpSets written_sets(const MeshDocument& document) {
   WrittenInpSets sets;
   const CellGroups groups = find_cell_groups(document);
-  sets.array = groups.array;
+  sets.arrays = groups.arrays;
   std::vector<std::vector<std::int32_t>> members(groups.groups.size());
   for (std::size_t cell = 0; cell < groups.of_cell.size(); ++cell) {
     if (groups.of_cell[cell] >= 0) {
@@ -191,7 +192,7 @@ std::vector<std::string> lost_in_inp(const MeshDocument& document) {
   const WrittenInpSets sets = written_sets(document);
   std::vector<std::string> sentences = describe_lost_cells("Abaqus", "lines, faces and solids", {},
                                                            cells_to_tell_of(document, find_cell_groups(document)));
-  std::ranges::move(describe_lost_arrays("Abaqus", document, {.cell = sets.array}), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_arrays("Abaqus", document, {.cell = sets.arrays}), std::back_inserter(sentences));
   const auto tell_of = [&](std::string_view rule, const std::vector<std::string>& (InpSetNames::*names)() const) {
     std::string all;
     for (const InpSetNames* const taken : {&sets.cell_names, &sets.point_names}) {

@@ -15,7 +15,7 @@ ScalarType med_field_type(const DataArray& array) {
   return type == ScalarType::float32 ? ScalarType::float64 : type;
 }
 
-MedFieldPlan plan_med_fields(const MeshDocument& document, const std::string& left_out) {
+MedFieldPlan plan_med_fields(const MeshDocument& document, const GroupArrays& left_out) {
   MedFieldPlan plan;
   FreeNames taken;
   std::vector<std::string> names;
@@ -24,7 +24,7 @@ MedFieldPlan plan_med_fields(const MeshDocument& document, const std::string& le
     names.push_back(taken.claim(array.name));
   }
   for (const DataArray& array : document.cell_arrays) {
-    if (!left_out.empty() && array.name == left_out) {
+    if (left_out.has(array.name)) {
       continue;
     }
     const auto same = std::ranges::find_if(plan.fields, [&array](const MedField& field) {

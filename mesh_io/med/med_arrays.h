@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -26,9 +27,9 @@ struct MedFieldPlan {
 /// Characters of the name of a field.
 inline constexpr std::size_t med_field_name_size = 64;
 
-/// The arrays of the document, which outlives the result, but the cell array of that name. Complexity: n log n in the
-/// arrays.
-MedFieldPlan plan_med_fields(const MeshDocument& document, const std::string& left_out);
+/// The arrays of the document, which outlives the result, but the cell arrays that groups are from. Complexity: n log n
+/// in the arrays.
+MedFieldPlan plan_med_fields(const MeshDocument& document, const GroupArrays& left_out);
 
 /// What a field's numbers are written as: those of files since MED 3.0, which has none of 32 bits with a fraction.
 ScalarType med_field_type(const DataArray& array);

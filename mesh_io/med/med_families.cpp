@@ -36,7 +36,7 @@ std::vector<std::int64_t> find_families(std::vector<std::vector<std::size_t>>& l
 MedFamilies plan_med_families(const MeshDocument& document) {
   GroupLists lists = list_groups(document);
   FittedNames names = fit_names(lists.names, med_group_name_size);
-  MedFamilies plan{std::move(names.names), std::move(names.renamed), std::move(lists.array), {}, {}, {}, {}};
+  MedFamilies plan{std::move(names.names), std::move(names.renamed), std::move(lists.arrays), {}, {}, {}, {}};
   plan.cell_families = find_families(
       lists.of_cells, -1, [&](std::size_t cell) { return cell_type::dimension(document.cells.types[cell]); },
       plan.of_cells);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -23,7 +24,7 @@ struct MedFamily {
 struct MedFamilies {
   std::vector<std::string> group_names;  ///< as they are written; no two alike
   std::vector<std::string> renamed;      ///< "'a b ' (as a b)"
-  std::string array;                     ///< the cell array that groups are from; empty: none
+  GroupArrays arrays;                    ///< the cell arrays that groups are from
   std::vector<MedFamily> of_points;
   std::vector<MedFamily> of_cells;
   std::vector<std::int64_t> point_families;  ///< the number of each point's family; empty: none is in a set

@@ -40,7 +40,7 @@ class MedWriter {
     set(all_families_ + "/FAMILLE_ZERO", {{"NUM", 0}});
     write_families("NOEUD", families_.of_points);
     write_families("ELEME", families_.of_cells);
-    for (const MedField& field : plan_med_fields(document_, families_.array).fields) {
+    for (const MedField& field : plan_med_fields(document_, families_.arrays).fields) {
       write_field(field);
     }
     file_.close();
@@ -296,9 +296,9 @@ std::vector<std::string> lost_in_med(const MeshDocument& document) {
   others.field_arrays = document.field_arrays;
   std::ranges::move(describe_lost_arrays("MED", others), std::back_inserter(sentences));
   std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
-                       [&families](const DataArray& array) { return array.name != families.array; });
+                       [&families](const DataArray& array) { return !families.arrays.has(array.name); });
   std::ranges::move(describe_lost_names("MED", others), std::back_inserter(sentences));
-  if (const MedFieldPlan plan = plan_med_fields(document, families.array); !plan.renamed.empty()) {
+  if (const MedFieldPlan plan = plan_med_fields(document, families.arrays); !plan.renamed.empty()) {
     sentences.push_back("MED has names of fields of " + std::to_string(med_field_name_size) +
                         " characters at most, each once and without slashes: changed are " + list_text(plan.renamed));
   }

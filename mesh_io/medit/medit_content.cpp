@@ -134,7 +134,7 @@ std::int64_t MeditContent::vertex_ref(std::size_t vertex) const {
 }
 
 std::int64_t MeditContent::cell_ref(std::size_t cell) const {
-  if (groups.array.empty() || groups.of_cell[cell] < 0) {
+  if (groups.of_cell.empty() || groups.of_cell[cell] < 0) {
     return 0;
   }
   return groups.groups[static_cast<std::size_t>(groups.of_cell[cell])].number;

@@ -163,10 +163,10 @@ std::vector<std::string> lost_in_mfem(const MeshDocument& document) {
   std::vector<std::string> sentences =
       describe_lost_cells("MFEM", "lines, triangles and quadrilaterals", written_types, document.cells);
   MeshDocument others;
-  const std::string groups = find_cell_groups(document).array;
+  const GroupArrays groups = find_cell_groups(document).arrays;
   others.point_arrays = document.point_arrays;
   std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
-                       [&groups](const DataArray& array) { return array.name != groups; });
+                       [&groups](const DataArray& array) { return !groups.has(array.name); });
   others.field_arrays = document.field_arrays;
   others.point_sets = document.point_sets;
   others.cell_sets = document.cell_sets;

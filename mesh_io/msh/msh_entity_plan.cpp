@@ -9,7 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/msh/msh_element_types.h"
 #include "trismooth/mesh_io/msh/msh_fields.h"
@@ -58,7 +57,7 @@ class MshEntityPlanner {
   }
 
   void plan_groups() {
-    plan_.group_array = groups_.array;
+    plan_.group_arrays = groups_.arrays;
     const auto can_be_tag = [](std::int64_t number) {
       return number >= 1 && number < std::numeric_limits<std::int32_t>::max();
     };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -31,7 +32,7 @@ struct MshEntityPlan {
   std::vector<std::int32_t> of_cell;       ///< a place in `entities`; -1 for cells that are not written
   std::vector<std::int32_t> of_point;      ///< the one of the lowest dimension that has the point
   std::vector<int> element_types;          ///< of every cell, Gmsh's number; 0: not written
-  std::string group_array;                 ///< the cell array that the groups are from; empty: none
+  GroupArrays group_arrays;                ///< the cell arrays that the groups are from
   bool keeps_entities = false;             ///< the tags are those of the array gmsh:geometrical
   bool renumbers_groups = false;           ///< some group's number is none that Gmsh can have
   std::vector<std::string> renamed{};      ///< "'a"b' (as a_b)": groups whose names Gmsh cannot have

@@ -29,8 +29,7 @@ struct MshStretch {
 
 /// Whether the entities of the file say what the array says.
 bool is_of_entities(const DataArray& array, const MshEntityPlan& plan) {
-  return (!plan.group_array.empty() && array.name == plan.group_array) ||
-         (plan.keeps_entities && array.name == "gmsh:geometrical");
+  return plan.group_arrays.has(array.name) || (plan.keeps_entities && array.name == "gmsh:geometrical");
 }
 
 class MshWriter {
@@ -282,7 +281,8 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
     sentences.push_back("MSH holds names without quotation marks: changed are " + list_text(plan.renamed));
   }
   if (plan.renumbers_groups) {
-    sentences.push_back("MSH numbers groups from 1: those of " + plan.group_array + " with other numbers get new ones");
+    sentences.push_back("MSH numbers groups from 1: those of " + plan.group_arrays.text() +
+                        " with other numbers get new ones");
   }
   for (const MshPlannedGroup& rest : plan.rests) {
     constexpr std::array<std::string_view, 4> kinds{"points", "lines", "surfaces", "volumes"};

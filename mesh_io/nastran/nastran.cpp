@@ -177,7 +177,7 @@ std::vector<std::string> lost_in_nastran(const MeshDocument& document) {
       cell_types_where([](std::uint8_t type) { return nastran_element_of_cell(type) != nullptr; });
   std::vector<std::string> sentences =
       describe_lost_cells("Nastran", "lines, faces and solids", nastran_types, document.cells);
-  for (std::vector<std::string> more : {describe_lost_arrays("Nastran", document, {.cell = properties.groups.array}),
+  for (std::vector<std::string> more : {describe_lost_arrays("Nastran", document, {.cell = properties.groups.arrays}),
                                         describe_lost_sets("Nastran", document)}) {
     std::ranges::move(more, std::back_inserter(sentences));
   }

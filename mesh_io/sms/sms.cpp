@@ -160,7 +160,7 @@ std::vector<std::string> lost_in_sms(const MeshDocument& document) {
   std::vector<std::string> sentences =
       describe_lost_cells("2dm", "triangles, quadrilaterals and lines", types, document.cells);
   for (std::vector<std::string> more :
-       {describe_lost_arrays("2dm", document, {.point = elevations, .cell = groups.array}),
+       {describe_lost_arrays("2dm", document, {.point = elevations, .cell = groups.arrays}),
         describe_lost_sets("2dm", lost), lost_material_names(groups), lost_set_names(document),
         elevations.empty() ? std::vector<std::string>{} : describe_lost_z("2dm", document)}) {
     std::ranges::move(more, std::back_inserter(sentences));

@@ -79,7 +79,7 @@ Su2Markers find_markers(const MeshDocument& document) {
   Su2Marker rest;
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     if (cells.types[cell] == cell_type::line) {
-      const std::int32_t group = groups.array.empty() ? -1 : groups.of_cell[cell];
+      const std::int32_t group = groups.of_cell.empty() ? -1 : groups.of_cell[cell];
       Su2Marker& marker = group < 0 ? rest : found.all[marker_of_group[static_cast<std::size_t>(group)]];
       marker.edges.push_back({cells[cell][0], cells[cell][1]});
     }
@@ -123,15 +123,16 @@ std::vector<std::string> describe_lost_in_arrays(const MeshDocument& document) {
       std::ranges::any_of(groups.groups, [](const CellGroup& group) { return group.dimension == 1; });
   HeldArrays held;
   if (has_markers) {
-    held.cell = groups.array;
+    held.cell.of_dimension[1] = groups.arrays.of_dimension[1];
   }
   std::vector<std::string> sentences = describe_lost_arrays("SU2", document, held);
   // A value of 0 without a name, of all other cells, says nothing.
-  const bool has_others = std::ranges::any_of(groups.groups, [](const CellGroup& group) {
-    return group.dimension != 1 && (group.number != 0 || !group.name.empty());
+  const bool has_others = std::ranges::any_of(groups.groups, [&](const CellGroup& group) {
+    const std::string& array = groups.arrays.of_dimension.at(static_cast<std::size_t>(group.dimension));
+    return group.dimension != 1 && held.cell.has(array) && (group.number != 0 || !group.name.empty());
   });
   if (has_markers && has_others) {
-    sentences.push_back("SU2 holds groups of lines only, as markers: what " + groups.array +
+    sentences.push_back("SU2 holds groups of lines only, as markers: what " + groups.arrays.of_dimension[1] +
                         " says of other cells is not written");
   }
   return sentences;

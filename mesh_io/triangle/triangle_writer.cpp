@@ -47,7 +47,9 @@ struct ElementAttribute {
   bool has_groups() const {
     return std::ranges::any_of(groups.groups, [](const CellGroup& group) { return group.dimension == 2; });
   }
-  std::string array_name() const { return has_groups() ? groups.array : array != nullptr ? array->name : ""; }
+  std::string array_name() const {
+    return has_groups() ? groups.arrays.of_dimension[2] : array != nullptr ? array->name : "";
+  }
   bool empty() const { return !has_groups() && array == nullptr; }
 };
 

@@ -254,7 +254,7 @@ std::vector<std::string> lost_in_unv(const MeshDocument& document) {
   const CellGroups groups = find_cell_groups(document);
   const auto unv_types = cell_types_where([](std::uint8_t type) { return unv_shape_of_cell(type).nodes > 0; });
   std::vector<std::string> sentences = describe_lost_cells("UNV", "lines, faces and solids", unv_types, document.cells);
-  std::ranges::move(describe_lost_arrays("UNV", document, {.cell = groups.array}), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_arrays("UNV", document, {.cell = groups.arrays}), std::back_inserter(sentences));
   std::vector<std::string> changed;
   (void)written_groups(document, groups, written_elements(document.cells), &changed);
   if (!changed.empty()) {

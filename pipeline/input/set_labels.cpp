@@ -158,7 +158,8 @@ std::vector<std::uint8_t> points_of_label(const MeshDocument& document, const Se
   const CellGroups groups = document.cell_sets.empty() ? CellGroups() : find_cell_groups(document);
   for (const CellGroup& group : groups.groups) {
     const bool is_alike = std::to_string(group.number) == label.value || spelled(group.name) == label.value;
-    if (groups.array == label.array && is_alike && group.whole_set >= 0) {
+    const std::string& array = groups.arrays.of_dimension.at(static_cast<std::size_t>(group.dimension));
+    if (array == label.array && is_alike && group.whole_set >= 0) {
       for (const std::int32_t cell : document.cell_sets[static_cast<std::size_t>(group.whole_set)].members) {
         add_cell(static_cast<std::size_t>(cell));
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -51,7 +52,7 @@ std::vector<std::string> texts(const std::vector<CellGroup>& groups) {
 
 TEST_CASE("a document without an array of regions has no groups") {
   MeshDocument plain = document();
-  CHECK(find_cell_groups(plain).array.empty());
+  CHECK(find_cell_groups(plain).arrays.text().empty());
   CHECK(find_cell_groups(plain).of_cell.empty());
   add(plain, "pressure", {1, 2, 3, 4, 5});
   plain.cell_arrays.push_back(make_data_array("region", 1, std::vector<double>{1, 1, 2, 2, 3}));
@@ -64,7 +65,7 @@ TEST_CASE("groups are told apart by the dimension of their cells, and named by i
   add(named, "region", {1, 1, 1, 2, 2});
   add(named, "gmsh:physical", {7, 5, 5, 5, 0}, {{5, 1, "inlet"}, {5, 2, "air"}, {9, 2, "unused"}});
   const auto found = find_cell_groups(named);
-  CHECK(found.array == "gmsh:physical");
+  CHECK(found.arrays.text() == "gmsh:physical");
   CHECK(texts(found.groups) == std::vector<std::string>{"1:5:inlet", "1:7:", "2:5:air"});
   CHECK(found.of_cell == std::vector<std::int32_t>{1, 0, 2, 2, -1});
 }
@@ -74,7 +75,30 @@ TEST_CASE("without names the first array that has regions by its name counts; 0 
   add(unnamed, "order", {1, 2, 3, 4, 5});
   add(unnamed, "Material ID", {0, 0, 0, 3, -2});
   const auto found = find_cell_groups(unnamed);
-  CHECK(found.array == "Material ID");
+  CHECK(found.arrays.text() == "Material ID");
   CHECK(texts(found.groups) == std::vector<std::string>{"1:0:", "2:-2:", "2:3:"});
   CHECK(found.of_cell == std::vector<std::int32_t>{0, 0, -1, 2, 1});
+}
+
+TEST_CASE("lines that the array of regions does not tell apart are grouped by the one that has values of lines alone") {
+  MeshDocument tagged = document();
+  add(tagged, "order", {1, 2, 3, 4, 5});
+  add(tagged, "material", {0, 0, 7, 9, 7});
+  add(tagged, "ghosts of lines", {1, 1, 0, 0, 0});
+  add(tagged, "bottom", {7, 0, 0, 0, 0});
+  add(tagged, "top", {0, 4, 0, 0, 0});
+  const auto found = find_cell_groups(tagged);
+  CHECK(found.arrays.of_dimension == std::array<std::string, 4>{"material", "bottom", "material", "material"});
+  CHECK(found.arrays.text() == "material, bottom");
+  CHECK((found.arrays.has("bottom") && !found.arrays.has("top") && !found.arrays.has("")));
+  CHECK(texts(found.groups) == std::vector<std::string>{"1:7:bottom_7", "2:7:material_7", "2:9:material_9"});
+  CHECK(found.of_cell == std::vector<std::int32_t>{0, -1, 1, 2, 1});
+}
+
+TEST_CASE("lines are grouped by their own array where none has regions, and by that of regions where it tells them") {
+  MeshDocument sides = document();
+  add(sides, "bottom", {3, 5, 0, 0, 0});
+  CHECK(texts(find_cell_groups(sides).groups) == std::vector<std::string>{"1:3:bottom_3", "1:5:bottom_5"});
+  add(sides, "material", {1, 0, 7, 7, 7});
+  CHECK(texts(find_cell_groups(sides).groups) == std::vector<std::string>{"1:1:", "2:7:"});
 }

@@ -62,6 +62,11 @@ std::string failure(const std::string& text) {
   return xdmf.failure_of(text);
 }
 
+/// The file of that extension that the document is written to.
+std::string text_of(const MeshDocument& document, const std::string& extension) {
+  return TextFormat(extension).written(document);
+}
+
 }  // namespace
 
 TEST_CASE("XDMF: cells of each type have the vertices and the type of VTK") {
@@ -97,6 +102,32 @@ TEST_CASE("XDMF: tags of the same cells in another order are arrays of these, an
   CHECK(values_of<std::int32_t>(document.cell_arrays, "cell_tags") == std::vector<std::int32_t>{0, 5, 0, 0});
   CHECK(values_of<std::int32_t>(document.cell_arrays, "facet_tags") == std::vector<std::int32_t>{0, 0, 7, 9});
   CHECK(values_of<std::int32_t>(document.cell_arrays, "other") == std::vector<std::int32_t>{0, 0, 0, 1});
+}
+
+TEST_CASE("XDMF: tags of faces and of sides are groups of both in other formats, and untagged sides are in none") {
+  const MeshDocument document = xdmf.read(file(
+      grid(two_triangles + points()) +
+      grid(include_points + topology("Triangle", "2 3", "0 1 2 0 2 3") + attribute("material", "Cell", "2", "3 9")) +
+      grid(include_points + topology("Polyline", "2 2", "0 1 2 1", "NodesPerElement=\"2\"") +
+           attribute("bottom", "Cell", "2", "3 0"))));
+  const std::string su2 = text_of(document, ".su2");
+  CHECK(su2.substr(su2.find("NMARK")) ==
+        "NMARK= 2\nMARKER_TAG= bottom_3\nMARKER_ELEMS= 1\n3 0 1\nMARKER_TAG= boundary\nMARKER_ELEMS= 3\n3 2 1\n3 2 3\n"
+        "3 3 0\n");
+  for (const char* const extension : {".inp", ".unv", ".msh", ".exo"}) {
+    INFO(extension);
+    const std::string text = text_of(document, extension);
+    for (const char* const name : {"material_3", "material_9", "bottom_3"}) {
+      CHECK(text.find(name) != std::string::npos);
+    }
+    CHECK(text.find("_0") == std::string::npos);
+  }
+  for (const FileFormat format : {FileFormat::med, FileFormat::cgns, FileFormat::exodus}) {
+    if (is_available(format)) {
+      const std::vector<std::string> lost = what_is_lost(document, format);
+      CHECK(std::ranges::none_of(lost, [](const std::string& loss) { return loss.find("bottom") != loss.npos; }));
+    }
+  }
 }
 
 TEST_CASE("XDMF: grids with points of their own are one mesh, and a note says so") {

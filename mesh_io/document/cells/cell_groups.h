@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
@@ -22,17 +24,30 @@ struct CellGroup {
 /// The name of the set of all cells of a group without a name: "physical 3".
 std::string name_of_unnamed_group(std::int64_t number);
 
+/// The cell arrays that groups are from.
+struct GroupArrays {
+  std::array<std::string, 4> of_dimension;  ///< by that of the cells; empty: these are without a group
+
+  /// Whether groups are from the array of that name.
+  bool has(std::string_view name) const;
+  /// Their names, each once, as a list.
+  std::string text() const;
+};
+
 /// The groups that a format with one number for a cell gets from a document.
 struct CellGroups {
-  std::string array;                  ///< the cell array that they are from; empty: all cells are without a group
-  std::vector<std::int32_t> of_cell;  ///< a place in `groups` for every cell; -1: none. Empty where `array` is
+  GroupArrays arrays;
+  std::vector<std::int32_t> of_cell;  ///< a place in `groups` for every cell; -1: none. Empty where no array has groups
   std::vector<CellGroup> groups;      ///< ascending by dimension and number; each has a cell
 };
 
 /// The groups by the document's cell array that says most of them: the first that has value_names, else the first of
-/// whole numbers and one component whose name is_region_name(), else none. Values of 0 without a name are no group,
-/// where the array has value_names or other values of the dimension. Complexity: n log g for g groups, and linear in
-/// the cell_sets.
+/// whole numbers and one component whose name is_region_name(), else none. Where it has but 0 at all lines, or at all
+/// points, they are grouped by the first array of whole numbers that has others than 0 there and 0 at all other cells,
+/// whatever its name: tags of sides, as dolfinx writes them to a grid of their own. Groups of several arrays that have
+/// no name are called after their array and number ("bottom_3"). Values of 0 without a name are no group, where the
+/// array has value_names or other values of the dimension. Complexity: n log g for g groups, linear in the cell_sets,
+/// and in cells and arrays for tags of sides.
 CellGroups find_cell_groups(const MeshDocument& document);
 
 }  // namespace trismooth

@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/document/free_names.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
@@ -19,7 +18,7 @@ class GroupLister {
 
   GroupLists list() {
     const CellGroups groups = find_cell_groups(document_);
-    lists_.array = groups.array;
+    lists_.arrays = groups.arrays;
     std::vector<std::size_t> places;
     for (const CellGroup& group : groups.groups) {
       places.push_back(place_of(group.name.empty() ? name_of_unnamed_group(group.number) : group.name));

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trismooth/mesh_io/document/cells/cell_groups.h"
 #include "trismooth/mesh_io/mesh_document.h"
 
 namespace trismooth {
@@ -13,7 +14,7 @@ namespace trismooth {
 /// All groups that a format gets from a document whose groups may overlap: those of find_cell_groups(), the sets of
 /// cells and those of points. Groups of one name are one; those without a name are called after their number.
 struct GroupLists {
-  std::string array;                                ///< the cell array that groups are from; empty: none
+  GroupArrays arrays;                               ///< the cell arrays that groups are from
   std::vector<std::string> names;                   ///< each once, in the order in which they come first
   std::vector<std::vector<std::size_t>> of_cells;   ///< the groups of each cell as places in `names`, ascending
   std::vector<std::vector<std::size_t>> of_points;  ///< likewise
