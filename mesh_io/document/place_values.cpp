@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trismooth/mesh_io/document/array_names.h"
+#include "trismooth/mesh_io/selafin/selafin_names.h"
 
 namespace trismooth {
 
@@ -60,6 +61,23 @@ PlaceValues find_place_values(const MeshDocument& document, PlaceValue wanted) {
     }
   }
   return {.array = {}, .values = std::vector<double>(document.point_count(), 0)};
+}
+
+std::vector<std::string> written_place_arrays(const MeshDocument& document, FileFormat target) {
+  if (target != FileFormat::adcirc && target != FileFormat::sms && target != FileFormat::selafin) {
+    return {};
+  }
+  std::vector<std::string> names;
+  for (const DataArray& array : document.point_arrays) {
+    if (target == FileFormat::selafin && is_selafin_place_value(array.name)) {
+      names.push_back(array.name);
+    }
+  }
+  const PlaceValue wanted = target == FileFormat::adcirc ? PlaceValue::depth : PlaceValue::elevation;
+  if (const std::string name = names.empty() ? find_place_values(document, wanted).array : ""; !name.empty()) {
+    names.push_back(name);
+  }
+  return names;
 }
 
 std::vector<std::string> describe_missing_place_values(std::string_view format, const MeshDocument& document,

@@ -22,6 +22,10 @@ struct PlaceValues {
 /// the only one of arrays_of_places that has one component. Arrays with numbers that are not finite do not count.
 PlaceValues find_place_values(const MeshDocument& document, PlaceValue wanted);
 
+/// The point arrays that a file of that format gets as what it says of places: the depths of ADCIRC, the elevations of
+/// 2dm, the bottom of SELAFIN. Empty for other formats.
+std::vector<std::string> written_place_arrays(const MeshDocument& document, FileFormat target);
+
 /// The sentence where there are none: "ADCIRC holds depths: 0 is written for all points, ...".
 std::vector<std::string> describe_missing_place_values(std::string_view format, const MeshDocument& document,
                                                        PlaceValue wanted);

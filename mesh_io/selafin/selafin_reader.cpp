@@ -219,9 +219,9 @@ class SelafinReader {
     }
     if (is_only_step) {
       add_sites(record, type, {names_[variable], 0});
-      if (is_selafin_place_value(names_[variable])) {
-        document_.arrays_of_places.push_back(names_[variable]);
-      }
+    }
+    if (is_selafin_place_value(names_[variable])) {
+      document_.arrays_of_places.push_back(names_[variable]);
     }
   }
 

@@ -77,8 +77,11 @@ FieldChoice choose_fields(const MeshDocument& document, const FieldWishes& wishe
     const bool is_of_places =
         std::ranges::find(document.arrays_of_places, array.name) != document.arrays_of_places.end();
     const bool is_wanted = wishes.fields == Fields::interpolate && wishes.patterns.empty();
-    if (chosen[i] || ((is_of_places || is_wanted) && why_kept(array, wishes).empty())) {
+    const std::string_view why = why_kept(array, wishes);
+    if (chosen[i] || ((is_of_places || is_wanted) && why.empty())) {
       choice.arrays.push_back(i);
+    } else if (is_of_places && wishes.patterns.empty()) {
+      choice.notes.push_back(fmt::format("the point array '{}' {}: it is not interpolated", array.name, why));
     }
   }
   return choice;

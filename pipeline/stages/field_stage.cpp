@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <iterator>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,8 @@
 
 #include "trismooth/base/machine/stopwatch.h"
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/document/place_values.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/fields/field_choice.h"
 #include "trismooth/pipeline/fields/field_transfer.h"
@@ -23,6 +26,12 @@
 namespace trismooth {
 
 namespace {
+
+/// Whether files that are written back keep the values of points that were read where they have several time steps,
+/// and else not.
+bool has_only_steps_kept(FileFormat format) {
+  return format == FileFormat::exodus || format == FileFormat::selafin;
+}
 
 /// The vertices that are elsewhere now.
 std::vector<std::int32_t> moved_vertices(std::span<const Point2<double>> before,
@@ -163,20 +172,32 @@ void find_fields(RunState& run) {
   if (!options.output || options.deformation) {
     return;
   }
-  const MeshDocument& document = run.document;
+  MeshDocument& document = run.document;
+  const FileFormat target = output_format(*options.output, document.format, options.format);
+  for (std::string& name : written_place_arrays(document, target)) {
+    if (std::ranges::find(document.arrays_of_places, name) == document.arrays_of_places.end()) {
+      document.arrays_of_places.push_back(std::move(name));
+    }
+  }
   FieldChoice choice = choose_fields(document, {options.fields, options.field_arrays, run.result.input.fixed_array,
                                                 run.sizes.of_cells ? "" : run.sizes.array});
   std::ranges::move(choice.notes, std::back_inserter(run.result.notes));
-  const FileFormat target = output_format(*options.output, run.document.format, options.format);
+  std::vector<std::string> kept;
   for (const std::size_t array : choice.arrays) {
     const std::string& name = document.point_arrays[array].name;
     if (writes_values_of(document, target, name)) {
       run.fields.push_back(array);
     } else {
-      run.result.losses.push_back(fmt::format(
-          "the point array '{}' is not interpolated: a {} file is written back with the values that were read", name,
-          title_of(target)));
+      kept.push_back("'" + name + "'");
     }
+  }
+  if (!kept.empty()) {
+    const bool is_one = kept.size() == 1;
+    run.result.losses.push_back(
+        fmt::format("the point {} {} {} not interpolated: {} files{} are written back with the values that were read; "
+                    "written to another format, such as .vtu or .med, {}",
+                    is_one ? "array" : "arrays", list_text(kept), is_one ? "is" : "are", title_of(target),
+                    has_only_steps_kept(target) ? " of several time steps" : "", is_one ? "it is" : "they are"));
   }
 }
 

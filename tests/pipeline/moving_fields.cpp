@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_file.h"
@@ -12,6 +14,7 @@
 
 #include "catch.h"
 #include "support/scratch_folder.h"
+#include "support/small_selafin.h"
 #include "support/test_meshes.h"
 #include "support/triangle_document.h"
 
@@ -109,6 +112,92 @@ TEST_CASE("by default fields stay with their vertices, and names choose some") {
   CHECK(run.run().fields.size() == 1);
   check_linear(run.output());
   CHECK(same_values(before.point_arrays[3], run.output().point_arrays[3]));
+}
+
+TEST_CASE("what another format gets as its depths follows the mesh as its own depths do") {
+  struct Way {
+    const char* file;
+    const char* array;
+    double sign;
+  };
+  for (const Way& way : {Way{"m.14", "depth", 1}, Way{"m.2dm", "elevation", -1}, Way{"m.slf", "BOTTOM", -1}}) {
+    for (const bool keeps : {false, true}) {
+      INFO(way.file << ' ' << keeps);
+      Run run("m.vtu", way.file);
+      MeshDocument document = sample();
+      document.point_arrays = {document.point_arrays[3], document.point_arrays[0]};
+      document.point_arrays[1].name = "Depth";
+      write_mesh(run.options.input, document);
+      run.options.fields = keeps ? std::optional(Fields::keep) : std::nullopt;
+      const PipelineResult result = run.run();
+      REQUIRE(result.smoothing->moved_vertices > 300);
+      CHECK(result.fields == (keeps ? std::vector<InterpolatedField>{}
+                                    : std::vector<InterpolatedField>{{"Depth", result.smoothing->moved_vertices}}));
+      const MeshDocument after = run.output();
+      const DataArray& written = *find_array(after.point_arrays, way.array);
+      for (std::size_t v = 0; v < after.point_count(); ++v) {
+        const double expected =
+            keeps ? document.point_arrays[1].value(v) : plane(after.points[3 * v], after.points[3 * v + 1]);
+        REQUIRE(std::abs(written.value(v) - way.sign * expected) < 1e-13);
+      }
+    }
+  }
+}
+
+TEST_CASE("depths in whole numbers stay, and a note says so") {
+  Run run("m.vtu", "m.14");
+  MeshDocument document = sample();
+  document.point_arrays = {document.point_arrays[2]};
+  document.point_arrays[0].name = "depth";
+  write_mesh(run.options.input, document);
+  const PipelineResult result = run.run();
+  CHECK(result.fields.empty());
+  CHECK(std::ranges::count(result.notes, "the point array 'depth' holds whole numbers: it is not interpolated") == 1);
+}
+
+TEST_CASE("a bottom of several time steps stays in its file, which is said with the way out, and follows elsewhere") {
+  const test_meshes::Mesh mesh = test_meshes::jittered_grid(25, 25, 0.4, 5);
+  test_support::SmallSelafin file;
+  file.head({"BOTTOM"});
+  file.integers(
+      {static_cast<std::int32_t>(mesh.triangles.size()), static_cast<std::int32_t>(mesh.points.size()), 3, 1});
+  std::vector<std::int32_t> nodes;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::int32_t vertex : triangle) {
+      nodes.push_back(vertex + 1);
+    }
+  }
+  file.integers(nodes);
+  file.integers(std::vector<std::int32_t>(mesh.points.size()));
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> bottom;
+  for (const auto& point : mesh.points) {
+    x.push_back(point.x);
+    y.push_back(point.y);
+    bottom.push_back(plane(point.x, point.y));
+  }
+  file.reals(x);
+  file.reals(y);
+  for (const double time : {0.0, 60.0}) {
+    file.reals({time});
+    file.reals(bottom);
+  }
+  for (const char* const name : {"out.slf", "out.14"}) {
+    INFO(name);
+    Run run("m.vtu", name);
+    run.options.input = run.folder.write("steps.slf", file.bytes());
+    const PipelineResult result = run.run();
+    REQUIRE(result.smoothing->moved_vertices > 300);
+    if (std::string_view(name) == "out.slf") {
+      CHECK(result.fields.empty());
+      CHECK(result.losses.back() ==
+            "the point array 'BOTTOM' is not interpolated: SELAFIN files of several time steps are written back with "
+            "the values that were read; written to another format, such as .vtu or .med, it is");
+    } else {
+      CHECK(result.fields == std::vector<InterpolatedField>{{"BOTTOM", result.smoothing->moved_vertices}});
+    }
+  }
 }
 
 TEST_CASE("vertices beside a value that stands for none are counted, and the note names a way out, which works") {
