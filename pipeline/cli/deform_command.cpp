@@ -20,7 +20,8 @@ namespace {
 void add_displacement_options(CLI::App& command, Deformation& deformation) {
   const char* const group = "Where the boundary goes";
   add_parsed_option(command, "--displacement", "NAME",
-                    "Point array of the displacements, vectors in the mesh's unit: of INPUT, or of the files below. "
+                    "Point array of the displacements, vectors in the mesh's unit: of INPUT, or of the files below; or "
+                    "the beginning of names of arrays of one number that end in x, y and perhaps z (disp_x, disp_y). "
                     "Those of vertices that are held are obeyed",
                     [&deformation](const std::string& text) { deformation.array = text; })
       ->group(group);

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include "trismooth/base/box.h"
 #include "trismooth/base/point_squares.h"
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/base/text/plain_name.h"
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/document/array_names.h"
 #include "trismooth/mesh_io/errors.h"
@@ -128,10 +131,41 @@ std::vector<NumberedVector> read_text(const std::filesystem::path& path) {
   return vectors;
 }
 
+/// The arrays "disp_x", "disp_y" and perhaps "disp_z" as one array, as programs that write numbers alone have them
+/// (Exodus II): names are compared by plain_name(). Nothing where there are none.
+std::optional<DataArray> joined_components(const MeshDocument& document, const std::string& name) {
+  std::vector<const DataArray*> components;
+  std::string names;
+  for (const char axis : {'x', 'y', 'z'}) {
+    const auto found = std::ranges::find_if(document.point_arrays, [&](const DataArray& array) {
+      return array.components == 1 && plain_name(array.name) == plain_name(name) + axis;
+    });
+    if (found == document.point_arrays.end()) {
+      break;
+    }
+    components.push_back(&*found);
+    add_to_list(names, found->name);
+  }
+  if (components.size() < 2) {
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  values.reserve(components.size() * document.point_count());
+  for (std::size_t row = 0; row < document.point_count(); ++row) {
+    for (const DataArray* const component : components) {
+      values.push_back(component->value(row));
+    }
+  }
+  return make_data_array(names, components.size(), std::move(values));
+}
+
 /// The array of a document that has them. `whose`: "the file" or that of a step.
-const DataArray& displacement_array(const MeshDocument& document, const std::string& name, const std::string& whose) {
+DataArray displacement_array(const MeshDocument& document, const std::string& name, const std::string& whose) {
   const DataArray* const array = find_array_loosely(document.point_arrays, name);
   if (array == nullptr) {
+    if (std::optional<DataArray> joined = joined_components(document, name)) {
+      return *std::move(joined);
+    }
     throw std::invalid_argument(fmt::format("{} has no point array '{}' to take displacements from; it has: {}", whose,
                                             name, array_names(document.point_arrays)));
   }
@@ -330,7 +364,7 @@ Displacements find_displacements(const MeshDocument& document, const PlanarMesh&
                                   "which point array has the displacements");
     }
     const MeshDocument file = read_mesh(path, FileOptions{threads, {}});
-    const DataArray& array = displacement_array(file, deformation.array, path.string());
+    const DataArray array = displacement_array(file, deformation.array, path.string());
     const PointsOfFile points(file, mesh);
     const auto is_same_point = [&](std::size_t v) { return points.is_at(v, mesh.points[v]); };
     bool has_same_points = file.point_count() == obeys.size();

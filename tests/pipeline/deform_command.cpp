@@ -143,7 +143,23 @@ TEST_CASE("displacements say the same as an array, as a table, by labels and on 
   }
   body.point_arrays.push_back(make_data_array("Motion", 2, motion));
   write_mesh(folder / "body.vtu", body);
+  // Numbers alone, as Exodus II has them, in another order.
+  MeshDocument split = triangle_document(rotor.mesh);
+  for (const auto& [name, axis] : {std::pair("motion_z", 2), std::pair("Motion_Y", 1), std::pair("motionX", 0)}) {
+    std::vector<double> along;
+    for (std::size_t i = static_cast<std::size_t>(axis); i < numbers.size(); i += 3) {
+      along.push_back(numbers[i]);
+    }
+    split.point_arrays.push_back(make_data_array(name, 1, std::move(along)));
+  }
+  const std::string with_numbers = (folder / "numbers.vtu").string();
+  write_mesh(with_numbers, split);
+  split.point_arrays.erase(split.point_arrays.begin());
+  const std::string with_two = (folder / "two.vtu").string();
+  write_mesh(with_two, split);
   const std::vector<Words> ways{
+      {with_numbers, "--displacement", "motion"},
+      {with_two, "--displacement", "motion_"},
       {with_array, "--displacement", "motion"},
       {plain, "--displacement-file", write_table(folder, "rows.csv", rotor, angle)},
       {plain, "--displacement-labels", "--displacement-file", write_table(folder, "labels.txt", rotor, angle, 1)},
@@ -160,6 +176,20 @@ TEST_CASE("displacements say the same as an array, as a table, by labels and on 
     first = first.empty() ? points : first;
     CHECK(points == first);
   }
+}
+
+TEST_CASE("an array of one direction alone is no displacement, and what there is is listed") {
+  const ScratchFolder folder;
+  const Rotor rotor(16, 3);
+  MeshDocument document = triangle_document(rotor.mesh);
+  for (const char* const name : {"disp_x", "disp_z", "disp_q"}) {
+    document.point_arrays.push_back(make_data_array(name, 1, std::vector<double>(document.point_count())));
+  }
+  write_mesh(folder / "x.vtu", document);
+  const Outcome outcome =
+      deform({(folder / "x.vtu").string(), (folder / "out.off").string(), "--displacement", "disp"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.says("no point array 'disp' to take displacements from; it has: disp_x, disp_z, disp_q"));
 }
 
 TEST_CASE("a series writes a mesh a step, the same for the same boundary, and tells of the worst one") {
