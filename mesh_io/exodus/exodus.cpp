@@ -305,9 +305,12 @@ std::vector<std::string> lost_in_exodus(const MeshDocument& document) {
         "Exodus II lists cells by block, of a region and a type: they are written in another order, their old numbers "
         "are their labels (elem_num_map)");
   }
-  if (!plan.renumbered.empty()) {
-    sentences.push_back("Exodus II numbers blocks from 1 on, each number once: changed are " +
-                        list_text(plan.renumbered));
+  for (const auto& [what, renumbered] :
+       {std::pair("blocks", &plan.renumbered_blocks), std::pair("side sets", &plan.renumbered_sets)}) {
+    if (!renumbered->empty()) {
+      sentences.push_back("Exodus II numbers " + std::string(what) + " from 1 on, each number once: changed are " +
+                          list_text(*renumbered));
+    }
   }
   if (!plan.split.empty()) {
     sentences.push_back(

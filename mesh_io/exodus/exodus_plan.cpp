@@ -190,7 +190,7 @@ class Planner {
       }
       const std::string& name = groups_.groups[static_cast<std::size_t>(group)].name;
       if (!is_further) {
-        note_number(number, name, blocks[block].id);
+        note_number(number, name, blocks[block].id, plan_.renumbered_blocks);
       }
       if (!name.empty()) {
         const std::string wanted =
@@ -214,10 +214,11 @@ class Planner {
     }
   }
 
-  void note_number(std::int64_t number, const std::string& name, std::int64_t id) {
+  static void note_number(std::int64_t number, const std::string& name, std::int64_t id,
+                          std::vector<std::string>& renumbered) {
     if (number != id) {
-      plan_.renumbered.push_back(std::to_string(number) + (name.empty() ? "" : " (" + name + ")") + " to " +
-                                 std::to_string(id));
+      renumbered.push_back(std::to_string(number) + (name.empty() ? "" : " (" + name + ")") + " to " +
+                           std::to_string(id));
     }
   }
 
@@ -246,7 +247,7 @@ class Planner {
       if (!sets[i].members.empty()) {
         sets[i].id = side_ids_.claim(group.number);
         sets[i].name = group.name;
-        note_number(group.number, group.name, sets[i].id);
+        note_number(group.number, group.name, sets[i].id, plan_.renumbered_sets);
         plan_.side_sets.push_back(std::move(sets[i]));
       }
     }

@@ -41,11 +41,12 @@ struct ExodusPlan {
   std::vector<ExodusPlanSet> side_sets;
   std::vector<ExodusPlanSet> element_sets;
   std::vector<ExodusPlanSet> node_sets;
-  std::size_t lines_as_sides = 0;       ///< lines that are no elements
-  std::vector<std::string> renumbered;  ///< "0 (wall) to 3": groups that are written under another number
-  std::vector<std::string> renamed;     ///< "wall (as wall_1)"
-  std::vector<std::string> split;       ///< "wall (3, 5)": groups of several blocks
-  bool has_regions = false;             ///< some group, or what is in none, has several blocks of faces
+  std::size_t lines_as_sides = 0;              ///< lines that are no elements
+  std::vector<std::string> renumbered_blocks;  ///< "0 (wall) to 3": groups that are written under another number
+  std::vector<std::string> renumbered_sets;    ///< likewise, of side sets
+  std::vector<std::string> renamed;            ///< "wall (as wall_1)"
+  std::vector<std::string> split;              ///< "wall (3, 5)": groups of several blocks
+  bool has_regions = false;                    ///< some group, or what is in none, has several blocks of faces
 };
 
 /// Complexity: linear, but for n log n in the lines.

@@ -283,6 +283,17 @@ TEST_CASE("Exodus: regions are written as blocks, lines of groups as side sets, 
           "numbers are their labels (elem_num_map)"});
 }
 
+TEST_CASE("Exodus: of numbers that change it is said which are those of blocks and which of side sets") {
+  MeshDocument document = document_of_groups();
+  DataArray groups = make_data_array("region", 1, std::vector<std::int32_t>{-4, -2, 3, -2, 5, 6});
+  groups.description = std::make_shared<const ArrayDescription>(ArrayDescription{{}, {}, {{-4, 1, "floor"}}, {}});
+  document.cell_arrays = {groups};
+  const std::vector<std::string> lost = what_is_lost(document, FileFormat::exodus);
+  CHECK(std::ranges::count(lost, "Exodus II numbers blocks from 1 on, each number once: changed are -2 to 1") == 1);
+  CHECK(std::ranges::count(
+            lost, "Exodus II numbers side sets from 1 on, each number once: changed are -4 (floor) to 1") == 1);
+}
+
 TEST_CASE("Exodus: a group of several types is a block of each, and numbers that cannot be ids change: both are told") {
   MeshDocument document;
   document.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0};
