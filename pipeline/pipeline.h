@@ -151,6 +151,7 @@ struct InputSummary {
   std::int64_t triangles = 0;
   std::int64_t quadrilaterals = 0;  ///< that are elements of the mesh; those that are held are other cells
   std::int64_t other_cells = 0;
+  std::int64_t lines = 0;                   ///< those of the other cells that are lines or curves
   std::int64_t crossed_quadrilaterals = 0;  ///< those of the other cells whose corners are not listed in turn: reports
                                             ///< count them as inverted
   std::int64_t quadratic_triangles = 0;     ///< those of the triangles that have six nodes
@@ -175,6 +176,9 @@ struct InputSummary {
   std::int64_t fixed_ids_vertices = 0;     ///< that it names
   HeldVertices held;                       ///< the fixed vertices by what holds them
   LayersResult layers;                     ///< triangles that are flat in one direction
+
+  /// Whether the other cells, of which there are some, are all lines.
+  bool has_lines_alone() const { return other_cells > 0 && lines == other_cells; }
 };
 
 /// Milliseconds of each stage.
@@ -207,6 +211,10 @@ struct PipelineResult {
   std::optional<SizeFit> size_fit_before;  ///< to the sizes asked for; absent where none were
   std::optional<SizeFit> size_fit_after;   ///< of the result; absent where size_fit_before is, or nothing was smoothed
   std::vector<InterpolatedField> fields;   ///< point arrays whose values followed the mesh
+  /// Point arrays of floating point whose values stay as read where vertices moved, which nobody has asked for.
+  std::vector<std::string> kept_fields;
+  /// The files that belong to the mesh file, of formats of several files; of a series those of all its steps.
+  std::vector<std::filesystem::path> other_outputs;
   /// Where the mesh followed its boundary: `after`, `smoothing` and all else of a result are of the worst step then.
   std::optional<DeformationResult> deformation;
   std::optional<ComparisonResult> comparison;  ///< absent where nothing was compared

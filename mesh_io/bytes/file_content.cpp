@@ -102,6 +102,16 @@ void WrittenAside::take_back() noexcept {
   }
 }
 
+std::vector<std::filesystem::path> WrittenAside::others(const std::filesystem::path& path) const {
+  std::vector<std::filesystem::path> names;
+  for (const std::unique_ptr<OutputFile>& file : files_) {
+    if (file->given() != path) {
+      names.push_back(file->given());
+    }
+  }
+  return names;
+}
+
 WrittenAside write_content_aside(const std::filesystem::path& path, const FileWorkers& workers,
                                  const std::function<void(const std::filesystem::path&)>& write) {
   const std::filesystem::path name = shown_output(path);

@@ -50,6 +50,10 @@ class WrittenAside {
   /// Undoes a commit(), as OutputFile::take_back() does.
   void take_back() noexcept;
 
+  /// The files that are to be there besides `path`, as write_mesh_aside() was told that one: none but of a mesh of
+  /// several files.
+  std::vector<std::filesystem::path> others(const std::filesystem::path& path) const;
+
  private:
   std::vector<std::unique_ptr<OutputFile>> files_;
   std::unique_ptr<MemoryFile> stream_;

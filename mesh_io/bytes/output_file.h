@@ -23,6 +23,9 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile();
 
+  /// The target, as it was given.
+  const std::filesystem::path& given() const { return given_; }
+
   /// Where to write.
   const std::filesystem::path& path() const { return path_; }
 

@@ -9,9 +9,11 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_output.h"
@@ -69,10 +71,12 @@ ExitCode generate(const GenerateSettings& settings, const CommandEnvironment& en
   bool has_reader = true;
   if (!settings.quiet) {
     std::ostream& results = is_standard_stream(settings.output) ? environment.err : environment.out;
+    std::vector<std::filesystem::path> files = written.others(settings.output);
+    files.insert(files.begin(), shown_output(settings.output));
     const std::string text =
         labelled_line("generated:", fmt::format("{} vertices, {} triangles, seed {}", mesh.points.size(),
                                                 mesh.triangles.size(), settings.seed)) +
-        labelled_line("written:", shown_output(settings.output).string());
+        labelled_line("written:", list_text(files, [](const std::filesystem::path& file) { return file.string(); }));
     has_reader = print_before_files(results, text);
   }
   written.commit();

@@ -16,17 +16,17 @@ namespace trismooth {
 namespace {
 
 /// Why an array is never interpolated, or nothing.
-std::string_view why_kept(const DataArray& array, const FieldWishes& wishes) {
-  if (is_annotation(array.name)) {
+std::string_view why_kept(std::string_view name, ScalarType type, const FieldWishes& wishes) {
+  if (is_annotation(name)) {
     return "shows what this program found";
   }
-  if (!wishes.fixed_array.empty() && array.name == wishes.fixed_array) {
+  if (!wishes.fixed_array.empty() && name == wishes.fixed_array) {
     return "says which vertices are fixed";
   }
-  if (!wishes.size_array.empty() && array.name == wishes.size_array) {
+  if (!wishes.size_array.empty() && name == wishes.size_array) {
     return "says which sizes to aim at";
   }
-  if (array.type != ScalarType::float32 && array.type != ScalarType::float64) {
+  if (type != ScalarType::float32 && type != ScalarType::float64) {
     return "holds whole numbers";
   }
   return {};
@@ -42,7 +42,7 @@ void choose_by_pattern(const MeshDocument& document, const FieldWishes& wishes, 
       continue;
     }
     matches = true;
-    const std::string_view why = why_kept(array, wishes);
+    const std::string_view why = why_kept(array.name, array.type, wishes);
     chosen[i] = chosen[i] || why.empty();
     if (!why.empty() && !is_wild(pattern)) {
       notes.push_back(fmt::format("the point array '{}' {}: it is not interpolated", array.name, why));
@@ -59,6 +59,10 @@ void choose_by_pattern(const MeshDocument& document, const FieldWishes& wishes, 
 }
 
 }  // namespace
+
+bool can_follow(std::string_view name, ScalarType type, const FieldWishes& wishes) {
+  return why_kept(name, type, wishes).empty();
+}
 
 FieldChoice choose_fields(const MeshDocument& document, const FieldWishes& wishes) {
   FieldChoice choice;
@@ -77,11 +81,13 @@ FieldChoice choose_fields(const MeshDocument& document, const FieldWishes& wishe
     const bool is_of_places =
         std::ranges::find(document.arrays_of_places, array.name) != document.arrays_of_places.end();
     const bool is_wanted = wishes.fields == Fields::interpolate && wishes.patterns.empty();
-    const std::string_view why = why_kept(array, wishes);
+    const std::string_view why = why_kept(array.name, array.type, wishes);
     if (chosen[i] || ((is_of_places || is_wanted) && why.empty())) {
       choice.arrays.push_back(i);
     } else if (is_of_places && wishes.patterns.empty()) {
       choice.notes.push_back(fmt::format("the point array '{}' {}: it is not interpolated", array.name, why));
+    } else if (why.empty() && !wishes.fields && wishes.patterns.empty()) {
+      choice.kept.push_back(i);
     }
   }
   return choice;

@@ -109,6 +109,7 @@ void hold_cell(const MeshDocument& document, std::size_t cell, ElementCells& mes
   mesh.high_order_quads += is_high_order_quad(type, vertices) ? 1 : 0;
   mesh.held_quads += quad_of_cell(type, vertices) ? 1 : 0;
   ++mesh.other_cells;
+  mesh.lines += cell_type::dimension(type) == 1 ? 1 : 0;
   for (const std::int32_t v : vertices) {
     mesh.in_other_cell[static_cast<std::size_t>(v)] = 1;
   }
@@ -167,7 +168,7 @@ void sort_cells(const MeshDocument& document, ElementCells& mesh, Quads quads, W
     }
   }
   mesh.elements = mesh.listed.list();
-  mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.repeating,
+  mesh.notes = notes_of_other_cells(mesh.other_cells, mesh.lines, mesh.repeating,
                                     mesh.elements.are_triangles() ? "triangle" : "triangle and quadrilateral");
   if (collapsed > 0) {
     mesh.notes.push_back(note_of_collapsed_quads(collapsed));
@@ -272,8 +273,8 @@ std::string note_of_collapsed_quads(std::int64_t quads) {
                  "quadrilaterals repeat a corner: they are smoothed as the triangles that they are");
 }
 
-std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, const RepeatingCells& repeating,
-                                              std::string_view kinds) {
+std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int64_t lines,
+                                              const RepeatingCells& repeating, std::string_view kinds) {
   std::vector<std::string> notes;
   const auto named = [](std::int64_t count, const char* kind, const char* repeats, std::optional<std::size_t> first) {
     return counted(count, kind, std::string(kind) + "s") + " repeating a " + repeats + " (the first is cell " +
@@ -283,8 +284,10 @@ std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, const Re
     notes.push_back(named(repeating.triangles, "triangle", "vertex", repeating.first_triangle));
   }
   if (const std::int64_t others = other_cells - repeating.triangles - repeating.quads; others > 0) {
-    notes.push_back(counted(others, "cell", "cells") + " of other types than " + std::string(kinds) +
-                    ": not smoothed, their vertices held fixed");
+    const std::string what = others == lines
+                                 ? counted(others, "line", "lines")
+                                 : counted(others, "cell", "cells") + " of other types than " + std::string(kinds);
+    notes.push_back(what + ": not smoothed, their vertices held fixed");
   }
   if (repeating.quads > 0) {
     notes.push_back(named(repeating.quads, "quadrilateral", "node", repeating.first_quad) +

@@ -56,6 +56,7 @@ struct ElementCells {
   NamedSides sides;                          ///< these sides
   std::vector<std::uint8_t> in_cell;         ///< per vertex: 1 where any cell uses it; the others have no say at all
   std::int64_t other_cells = 0;              ///< cells that are no elements
+  std::int64_t lines = 0;                    ///< those of them that are lines or curves
   RepeatingCells repeating;                  ///< those of them that repeat a vertex
   std::int64_t high_order_triangles = 0;     ///< those of them that are triangles of seven nodes, of ten, or of more
   std::int64_t high_order_quads = 0;         ///< and quadrilaterals of six nodes, or of more than nine
@@ -125,9 +126,9 @@ std::string note_of_collapsed_quads(std::int64_t quads);
 /// How many triangles of a mesh a cell of that type counts as, 0 where it is none.
 std::int64_t count_triangles(std::uint8_t type, std::span<const std::int32_t> vertices);
 
-/// What the user should know of cells that are no elements, `repeating` ones among them, one sentence each. `kinds`:
-/// what the elements are.
-std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, const RepeatingCells& repeating,
-                                              std::string_view kinds = "triangle");
+/// What the user should know of cells that are no elements, `lines` and `repeating` ones among them, one sentence each.
+/// `kinds`: what the elements are.
+std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int64_t lines,
+                                              const RepeatingCells& repeating, std::string_view kinds = "triangle");
 
 }  // namespace trismooth

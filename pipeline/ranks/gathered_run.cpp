@@ -91,6 +91,7 @@ void write_result(PieceFiles& files, const PipelineOptions& options, PipelineRes
     result.timings_ms.write += watch.milliseconds();
     return result;
   };
+  result.other_outputs = output_pieces(files, *options.written());
   write_pieces(files, *options.written(), ranks, workers, completed, options.beside);
 }
 

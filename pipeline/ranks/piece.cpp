@@ -23,6 +23,7 @@ OwnCells count_own_cells(const Piece& piece) {
     ++count.cells;
     if (has_triangles[c] == 0) {
       ++count.others;
+      count.lines += cell_type::dimension(cells.types[c]) == 1 ? 1 : 0;
       count.repeating.count(cells.types[c], cells[c], c);
       count.held_quads += quad_of_cell(cells.types[c], cells[c]) ? 1 : 0;
     } else if (const auto triangle = triangle_of_cell(cells.types[c], cells[c])) {

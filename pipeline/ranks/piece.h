@@ -39,6 +39,7 @@ struct OwnCells {
   std::int64_t triangles = 0;  ///< and quadrilaterals that are smoothed; those of strips count one by one
   std::int64_t cells = 0;
   std::int64_t others = 0;           ///< that are no elements
+  std::int64_t lines = 0;            ///< those of them that are lines or curves
   RepeatingCells repeating;          ///< those of them that repeat a vertex, by their numbers in the piece
   std::int64_t held_quads = 0;       ///< quadrilaterals among the others
   std::int64_t collapsed_quads = 0;  ///< CellTriangle::is_quad

@@ -210,6 +210,14 @@ std::vector<std::string> output_sources(const PieceFiles& files, const std::file
   return sources;
 }
 
+std::vector<std::filesystem::path> output_pieces(const PieceFiles& files, const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> pieces;
+  for (const std::string& source : output_sources(files, output)) {
+    pieces.push_back(piece_path(output, source));
+  }
+  return pieces;
+}
+
 void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output, bool single) {
   if (is_same_file(files.path, output)) {
     return;
@@ -224,8 +232,7 @@ void require_own_pieces(const PieceFiles& files, const std::filesystem::path& ou
   if (single) {
     return;
   }
-  for (const std::string& source : output_sources(files, output)) {
-    const std::filesystem::path target = piece_path(output, source);
+  for (const std::filesystem::path& target : output_pieces(files, output)) {
     if (read.contains(std::filesystem::weakly_canonical(target))) {
       throw std::invalid_argument(target.string() + " would be a piece of " + output.string() +
                                   " and is one of the input; choose another name for the output");

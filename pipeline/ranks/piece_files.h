@@ -63,6 +63,9 @@ PieceFiles read_pieces(const std::filesystem::path& path, Quads quads, const mpi
 /// new files beside `output`, called after it. Local.
 std::vector<std::string> output_sources(const PieceFiles& files, const std::filesystem::path& output);
 
+/// The same as paths that can be opened. Local.
+std::vector<std::filesystem::path> output_pieces(const PieceFiles& files, const std::filesystem::path& output);
+
 /// Throws std::invalid_argument where writing the pieces of `output`, or `output` itself where it is a `single` file,
 /// would overwrite those of another file, the input. Local.
 void require_own_pieces(const PieceFiles& files, const std::filesystem::path& output, bool single);

@@ -23,6 +23,7 @@
 #include "trismooth/mpi/overlap_smoother.h"
 #include "trismooth/mpi/plan.h"
 #include "trismooth/mpi/rank_layers.h"
+#include "trismooth/pipeline/fields/field_choice.h"
 #include "trismooth/pipeline/input/odd_quads.h"
 #include "trismooth/pipeline/input/point_sets.h"
 #include "trismooth/pipeline/ranks/agreement.h"
@@ -187,10 +188,12 @@ class PieceMesh final : public StagedMesh {
     if (const std::vector<std::string> dropped = drop_annotations(files_); !dropped.empty()) {
       run_.note(note_of_dropped_annotations(dropped));
     }
+    keep_fields();
     if (!run_.options.single) {
+      run_.result.other_outputs = output_pieces(files_, *run_.options.output);
       write_pieces(files_, *run_.options.output, *ranks_, run_.workers, completed, run_.options.beside);
     } else {
-      write_single(files_, run_.options, *ranks_, run_.workers, run_.result.losses, completed);
+      write_single(files_, run_.options, *ranks_, run_.workers, run_.result, completed);
     }
   }
 
@@ -235,6 +238,18 @@ class PieceMesh final : public StagedMesh {
   }
 
  private:
+  /// (Where fields are to follow, the mesh is not smoothed in pieces.)
+  void keep_fields() {
+    const PipelineOptions& options = run_.options;
+    const bool holds_them = !options.single || has_arrays(output_format(*options.output, std::nullopt, options.format));
+    for (const PieceArray& array : files_.arrays) {
+      if (holds_them && !options.fields && array.of == PieceArray::Of::points && !array.is_added &&
+          can_follow(array.name, array.type, {options.fields, options.field_arrays, constraints_.fixed_array, {}})) {
+        run_.result.kept_fields.push_back(array.name);
+      }
+    }
+  }
+
   void require_output() const {
     agree(*ranks_, [&] {
       if (ranks_->rank() == 0 && run_.options.written()) {
@@ -333,7 +348,7 @@ class PieceMesh final : public StagedMesh {
                                                         : "the file holds no cells: nothing to smooth");
     }
     std::ranges::move(
-        notes_of_other_cells(cells_.others, cells_.repeating,
+        notes_of_other_cells(cells_.others, cells_.lines, cells_.repeating,
                              overlap.elements().are_triangles() ? "triangle" : "triangle and quadrilateral"),
         std::back_inserter(result.notes));
     if (cells_.collapsed_quads > 0) {
@@ -350,6 +365,7 @@ class PieceMesh final : public StagedMesh {
                           .elements = topology_->triangle_count(),
                           .quadrilaterals = count_quadrilaterals(),
                           .other_cells = cells_.others,
+                          .lines = cells_.lines,
                           .components = components.count,
                           .reoriented_triangles = components.reoriented_triangles,
                           .reasons = reasons,

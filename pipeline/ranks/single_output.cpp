@@ -14,7 +14,7 @@
 namespace trismooth {
 
 void write_single(PieceFiles& files, const PipelineOptions& options, const mpi::Communicator& ranks, Workers& workers,
-                  std::vector<std::string>& losses, const std::function<const PipelineResult&()>& completed) {
+                  PipelineResult& result, const std::function<const PipelineResult&()>& completed) {
   WholeMesh whole(files, ranks);
   std::set<std::string> lost(whole.document.losses.begin(), whole.document.losses.end());
   std::optional<WrittenAside> file;
@@ -24,9 +24,10 @@ void write_single(PieceFiles& files, const PipelineOptions& options, const mpi::
       std::ranges::move(what_is_lost(whole.document, target), std::inserter(lost, lost.end()));
       file.emplace(write_mesh_aside(*options.output, whole.document, AddedArrays{},
                                     FileOptions{workers.count(), options.format}));
+      result.other_outputs = file->others(*options.output);
     }
   });
-  std::ranges::move(texts_of_all(lost, ranks), std::back_inserter(losses));
+  std::ranges::move(texts_of_all(lost, ranks), std::back_inserter(result.losses));
   prepare_beside(options.beside, completed(), ranks);
   agree(ranks, [&] {
     if (file) {

@@ -43,7 +43,8 @@ void add_reason(std::vector<std::string>& reasons, std::int64_t count, std::stri
 }
 
 /// What the mesh itself says, with that text of its interfaces, if any.
-std::vector<std::string> reasons_of(const HeldVertices& held, std::string interface) {
+std::vector<std::string> reasons_of(const HeldVertices& held, std::string interface,
+                                    std::string_view of_others = "of other cells") {
   std::vector<std::string> reasons;
   add_reason(reasons, held.boundary, "boundary");
   if (!interface.empty()) {
@@ -51,7 +52,7 @@ std::vector<std::string> reasons_of(const HeldVertices& held, std::string interf
   }
   add_reason(reasons, held.non_manifold, "non-manifold");
   add_reason(reasons, held.bow_tie, "bow tie");
-  add_reason(reasons, held.other_cells, "of other cells");
+  add_reason(reasons, held.other_cells, of_others);
   add_reason(reasons, held.unused, "unused");
   add_reason(reasons, held.layers, "in layers");
   return reasons;
@@ -87,7 +88,8 @@ std::string held_text(const InputSummary& input) {
                     ? fmt::format("no interface ({} is one region)", quoted_names(input.region_arrays))
                     : fmt::format("{} interface ({})", held.interface, quoted_names(input.region_arrays));
   }
-  std::vector<std::string> reasons = reasons_of(held, std::move(interface));
+  std::vector<std::string> reasons =
+      reasons_of(held, std::move(interface), input.has_lines_alone() ? "of lines" : "of other cells");
   if (!input.fixed_array.empty()) {
     reasons.push_back(fmt::format("{} by the array '{}'", input.fixed_array_vertices, input.fixed_array));
   }

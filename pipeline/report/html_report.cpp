@@ -57,7 +57,7 @@ std::string header(const PipelineOptions& options, const PipelineResult& result,
     counts += fmt::format(", {} quadrilaterals", count_text(input.quadrilaterals));
   }
   if (input.other_cells > 0) {
-    counts += fmt::format(", {} other cells", count_text(input.other_cells));
+    counts += fmt::format(", {} {}", count_text(input.other_cells), input.has_lines_alone() ? "lines" : "other cells");
   }
   std::string html = fmt::format("<header>\n<div class=\"kind\">{}</div>\n<h1>{}</h1>\n<div class=\"soft\">{}</div>\n",
                                  options.deformation ? "Mesh deformation report"
@@ -429,6 +429,9 @@ std::string outcome_table(const PipelineResult& result) {
   }
   if (!fields.empty()) {
     rows.emplace_back("fields interpolated", escape_html(list_text(fields, &InterpolatedField::name)));
+  }
+  if (!result.kept_fields.empty()) {
+    rows.emplace_back("fields as read", escape_html(list_text(result.kept_fields)));
   }
   if (ran_on_device(smoothing)) {
     rows.emplace_back("kernel launches", launches_text(smoothing));

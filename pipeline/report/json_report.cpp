@@ -69,6 +69,7 @@ Json input_json(const InputSummary& input) {
           {"triangles", input.triangles},
           {"quadrilaterals", input.quadrilaterals},
           {"other_cells", input.other_cells},
+          {"lines", input.lines},
           {"quadratic_triangles", input.quadratic_triangles},
           {"quadratic_quadrilaterals", input.quadratic_quadrilaterals},
           {"middle_nodes", input.middle_nodes},
@@ -103,7 +104,12 @@ Json options_json(const PipelineOptions& options, const PipelineResult& run) {
     annotated.push_back(std::string(size_ratio_info.name));
   }
   const bool annotates = options.annotate || options.annotated.has_value();
+  Json other_outputs = Json::array();
+  for (const std::filesystem::path& other : run.other_outputs) {
+    other_outputs.push_back(other.string());
+  }
   return {{"output", written ? Json(shown_output(*written).string()) : Json(nullptr)},
+          {"other_outputs", std::move(other_outputs)},
           {"method", std::string(smoothing.method_name())},
           {"form", name_of(smoothing.form)},
           {"layout", name_of(smoothing.layout)},
@@ -406,6 +412,7 @@ std::string json_report(const PipelineOptions& options, const PipelineResult& re
       {"size_array", size_array_json(result.input)},
       {"size_fit", size_fit_json(result)},
       {"fields", fields_json(result.fields)},
+      {"kept_fields", result.kept_fields},
       {"areas", areas_json(result)},
       {"deformation", deformation_json(options, result.deformation)},
       {"comparison", comparison_json(result.comparison)},

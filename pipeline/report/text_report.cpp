@@ -2,11 +2,13 @@
 #include "trismooth/pipeline/report/text_report.h"
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/report/comparison_text.h"
 #include "trismooth/pipeline/report/held_text.h"
@@ -39,7 +41,8 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
                 : fmt::format(", {} of them of eight or nine nodes", input.quadratic_quadrilaterals);
   }
   if (input.other_cells > 0) {
-    what += ", " + counted(input.other_cells, "other cell", "other cells");
+    what += ", " + (input.has_lines_alone() ? counted(input.lines, "line", "lines")
+                                            : counted(input.other_cells, "other cell", "other cells"));
   }
   if (input.components > 1) {
     what += fmt::format(", {} components", input.components);
@@ -209,22 +212,31 @@ std::string size_fit_line(const PipelineResult& result) {
                                        result.size_fit_before->rms_log_ratio, result.size_fit_after->rms_log_ratio));
 }
 
-/// The point arrays that followed the mesh; nothing where none did.
-std::string fields_line(const PipelineResult& result) {
-  if (result.fields.empty()) {
-    return {};
-  }
+/// "a, b and 7 more": what text(item) says of the first few items.
+template <class Items, class Text>
+std::string few_of(const Items& items, const Text& text) {
   constexpr std::size_t few = 5;
-  const std::int64_t vertices = result.fields.front().interpolated_vertices;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(few, result.fields.size()); ++i) {
-    text.append(i == 0 ? "'" : ", '").append(result.fields[i].name).append("'");
+  const std::string list = list_text(std::span(items).first(std::min(few, items.size())), text);
+  return items.size() > few ? list + fmt::format(" and {} more", items.size() - few) : list;
+}
+
+/// The point arrays that followed the mesh, and those that did not; nothing where there are none.
+std::string fields_line(const PipelineResult& result) {
+  std::string lines;
+  if (!result.fields.empty()) {
+    const std::int64_t vertices = result.fields.front().interpolated_vertices;
+    const std::string names =
+        few_of(result.fields, [](const InterpolatedField& field) { return "'" + field.name + "'"; });
+    lines = labelled_line("fields:",
+                          names + " interpolated at " + counted(vertices, "vertex that moved", "vertices that moved"));
   }
-  if (result.fields.size() > few) {
-    text += fmt::format(" and {} more", result.fields.size() - few);
+  if (!result.kept_fields.empty() && result.smoothing->moved_vertices > 0) {
+    const std::string names = few_of(result.kept_fields, [](const std::string& name) { return "'" + name + "'"; });
+    lines += labelled_line(lines.empty() ? "fields:" : "", names +
+                                                               " as read where vertices moved; --fields "
+                                                               "interpolate moves the values too");
   }
-  return labelled_line("fields:", text + fmt::format(" interpolated at {}",
-                                                     counted(vertices, "vertex that moved", "vertices that moved")));
+  return lines;
 }
 
 /// (Of those that remain a warning tells.)
@@ -337,12 +349,18 @@ std::string_view why_nothing_moved(const PipelineResult& result) {
 }
 
 std::string shown_meshes(const PipelineOptions& options, const PipelineResult& result) {
-  const std::filesystem::path& output = *options.written();
+  const std::vector<std::filesystem::path>& others = result.other_outputs;
+  const auto text = [](const std::filesystem::path& path) { return path.string(); };
   if (!result.deformation || !options.deformation->is_series) {
-    return shown_output(output).string();
+    const std::string output = shown_output(*options.written()).string();
+    return others.empty() ? output : output + ", " + few_of(others, text);
   }
+  const auto ends = [&](const std::filesystem::path& first, const std::filesystem::path& last) {
+    return first == last ? text(first) : text(first) + " to " + text(last);
+  };
   const std::vector<DeformedStep>& steps = result.deformation->steps;
-  return steps.front().output.string() + (steps.size() > 1 ? " to " + steps.back().output.string() : "");
+  const std::string meshes = ends(steps.front().output, steps.back().output);
+  return others.empty() ? meshes : meshes + ", " + ends(others.front(), others.back());
 }
 
 std::string_view describe(StopReason reason) {

@@ -122,8 +122,9 @@ void DocumentMesh::write(const std::function<const PipelineResult&()>& completed
   const PipelineOptions& options = run_.options;
   const std::size_t notes = run_.result.notes.size();
   const std::size_t losses = run_.result.losses.size();
-  WrittenAside mesh =
-      write_output(run_, deformer_ ? deformer_->output() : *options.written(), !options.output || options.annotate);
+  const std::filesystem::path path = deformer_ ? deformer_->output() : *options.written();
+  WrittenAside mesh = write_output(run_, path, !options.output || options.annotate);
+  std::ranges::move(mesh.others(path), std::back_inserter(run_.result.other_outputs));
   if (deformer_ && deformer_->done() > 1) {
     // What is to be said of the file has been said of the first one.
     run_.result.notes.resize(notes);

@@ -182,6 +182,12 @@ void find_fields(RunState& run) {
   FieldChoice choice = choose_fields(document, {options.fields, options.field_arrays, run.result.input.fixed_array,
                                                 run.sizes.of_cells ? "" : run.sizes.array});
   std::ranges::move(choice.notes, std::back_inserter(run.result.notes));
+  for (const std::size_t array : choice.kept) {
+    const std::string& name = document.point_arrays[array].name;
+    if ((target == document.format || has_arrays(target)) && writes_values_of(document, target, name)) {
+      run.result.kept_fields.push_back(name);
+    }
+  }
   std::vector<std::string> kept;
   for (const std::size_t array : choice.arrays) {
     const std::string& name = document.point_arrays[array].name;

@@ -52,6 +52,7 @@ void summarise_mesh(RunContext& run, const MeshFacts& facts) {
   input.triangles = facts.elements - facts.quadrilaterals;
   input.quadrilaterals = facts.quadrilaterals;
   input.other_cells = facts.other_cells;
+  input.lines = facts.lines;
   input.regions = facts.regions.count();
   input.region_arrays = facts.regions.arrays;
   input.region_array = list_text(facts.regions.arrays, &RegionArray::name);

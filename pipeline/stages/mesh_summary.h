@@ -17,6 +17,7 @@ struct MeshFacts {
   std::int64_t elements = 0;
   std::int64_t quadrilaterals = 0;  ///< of the elements
   std::int64_t other_cells = 0;
+  std::int64_t lines = 0;  ///< of the other cells
   std::int64_t components = 0;
   std::int64_t reoriented_triangles = 0;
   ReasonCounts reasons{};      ///< the vertices by what holds them, but for those that follow others

@@ -352,6 +352,7 @@ void connect_mesh(RunState& run) {
                         .elements = static_cast<std::int64_t>(mesh.elements.size()),
                         .quadrilaterals = mesh.count_quadrilaterals(),
                         .other_cells = mesh.other_cells,
+                        .lines = mesh.lines,
                         .components = run.found.components,
                         .reoriented_triangles = run.found.reoriented_triangles,
                         .reasons = count_vertices(run),

@@ -40,6 +40,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                 "size_array",
                                 "size_fit",
                                 "fields",
+                                "kept_fields",
                                 "areas",
                                 "deformation",
                                 "comparison",
@@ -58,6 +59,7 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
                                          "triangles",
                                          "quadrilaterals",
                                          "other_cells",
+                                         "lines",
                                          "quadratic_triangles",
                                          "quadratic_quadrilaterals",
                                          "middle_nodes",
@@ -81,9 +83,9 @@ TEST_CASE("the keys of the JSON report are those of the contract, in their order
   CHECK(keys_of(report["input"]["region_arrays"][0]) == Keys{"name", "reason", "values", "held_vertices"});
   const Keys options = keys_of(report["options"]);
   for (const char* key :
-       {"method",      "form",    "layout",     "backend",    "execution",  "order",          "topology",
-        "precision",   "threads", "max_sweeps", "tolerance",  "time_limit", "target_quality", "guard",
-        "size_weight", "power",   "target",     "size_array", "untangle",   "fields",         "field_arrays"}) {
+       {"other_outputs", "method",  "form",       "layout",    "backend",    "execution",      "order", "topology",
+        "precision",     "threads", "max_sweeps", "tolerance", "time_limit", "target_quality", "guard", "size_weight",
+        "power",         "target",  "size_array", "untangle",  "fields",     "field_arrays"}) {
     CAPTURE(key);
     CHECK(std::find(options.begin(), options.end(), key) != options.end());
   }

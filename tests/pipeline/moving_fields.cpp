@@ -103,7 +103,9 @@ TEST_CASE("a linear field is the same function of the place after the smoothing,
 
 TEST_CASE("by default fields stay with their vertices, and names choose some") {
   Run run("m.vtk", "out.vtk");
-  CHECK(run.run().fields.empty());
+  const PipelineResult result = run.run();
+  CHECK(result.fields.empty());
+  CHECK(result.kept_fields == std::vector<std::string>{"heat", "wind", "wave"});
   const MeshDocument before = run.input();
   for (std::size_t i = 0; i < before.point_arrays.size(); ++i) {
     CHECK(same_values(before.point_arrays[i], run.output().point_arrays[i]));
@@ -112,6 +114,14 @@ TEST_CASE("by default fields stay with their vertices, and names choose some") {
   CHECK(run.run().fields.size() == 1);
   check_linear(run.output());
   CHECK(same_values(before.point_arrays[3], run.output().point_arrays[3]));
+  // Who has said something knows it, and what is not written is told as lost.
+  CHECK(run.run().kept_fields.empty());
+  run.options.field_arrays.clear();
+  run.options.fields = Fields::keep;
+  CHECK(run.run().kept_fields.empty());
+  run.options.fields.reset();
+  run.options.output = run.folder / "out.off";
+  CHECK(run.run().kept_fields.empty());
 }
 
 TEST_CASE("what another format gets as its depths follows the mesh as its own depths do") {

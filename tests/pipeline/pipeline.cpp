@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/pipeline/report/held_text.h"
@@ -23,6 +24,7 @@
 #include "support/fake_backend.h"
 #include "support/scratch_folder.h"
 #include "support/test_meshes.h"
+#include "support/triangle_document.h"
 
 namespace trismooth::pipeline_test {
 
@@ -362,6 +364,22 @@ TEST_CASE("arrays of float are smoothed to the bits of a file of float32") {
     expected.insert(expected.end(), point.begin(), point.end());
   }
   CHECK(trismooth::read_mesh(*options.output).points == expected);
+}
+
+TEST_CASE("the files that belong to the output are among the results") {
+  const ScratchFolder folder;
+  trismooth::PipelineOptions options;
+  options.input = folder / "in.off";
+  trismooth::write_mesh(options.input, triangle_document(test_meshes::jittered_grid(5, 5, 0.3, 1)));
+  const auto others = [&](const char* name) {
+    options.output = folder / name;
+    return trismooth::run_pipeline(options).other_outputs;
+  };
+  using Paths = std::vector<std::filesystem::path>;
+  CHECK(others("out.off").empty());
+  CHECK(others("out.off.gz").empty());
+  CHECK(others("out.node") == Paths{folder / "out.ele"});
+  CHECK(others("out.xdmf") == trismooth::codec_of(trismooth::FileFormat::xdmf).other_files_of(folder / "out.xdmf"));
 }
 
 TEST_CASE("a mesh that was turned over is reported as it is turned now") {

@@ -95,7 +95,9 @@ TEST_CASE("the vertices of every cell that is no element are held, and a note sa
     CHECK(mesh.in_other_cell == c.held);
     // (Of quadrilaterals of more nodes than four another one does.)
     REQUIRE(mesh.notes.size() == (c.cell.type == 30 ? 2 : 1));
-    CHECK(contains(mesh.notes[0], "1 cell of other types than triangle"));
+    const bool is_line = cell_type::dimension(c.cell.type) == 1;
+    CHECK(mesh.lines == (is_line ? 1 : 0));
+    CHECK(contains(mesh.notes[0], is_line ? "1 line: not smoothed" : "1 cell of other types than triangle"));
   }
 }
 

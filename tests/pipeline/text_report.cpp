@@ -35,6 +35,38 @@ TEST_CASE("the result of a smoothing says what was read, done and written") {
   CHECK(text.back() == '\n');
 }
 
+TEST_CASE("all files that were written are told, of many the first") {
+  auto result = sample::result();
+  result.other_outputs = {"out.h5"};
+  CHECK(says(text_report(sample::options(), result), "written:    out.vtk, out.h5\n"));
+  result.other_outputs = {"0.vtu", "1.vtu", "2.vtu", "3.vtu", "4.vtu", "5.vtu", "6.vtu"};
+  CHECK(says(text_report(sample::options(), result),
+             "written:    out.vtk, 0.vtu, 1.vtu, 2.vtu, 3.vtu, 4.vtu and 2 more\n"));
+}
+
+TEST_CASE("values that stay where vertices moved are told once, with what moves them") {
+  auto result = sample::result();
+  result.kept_fields = {"T", "u"};
+  CHECK(says(text_report(sample::options(), result),
+             "fields:     'T', 'u' as read where vertices moved; --fields interpolate moves\n"));
+  result.fields = {{"depth", 61}};
+  CHECK(says(text_report(sample::options(), result),
+             "fields:     'depth' interpolated at 61 vertices that moved\n"
+             "            'T', 'u' as read where"));
+  result.kept_fields = {"a", "b", "c", "d", "e", "f", "g"};
+  CHECK(says(text_report(sample::options(), result), "'a', 'b', 'c', 'd', 'e' and 2 more as read"));
+  result.smoothing->moved_vertices = 0;
+  CHECK_FALSE(says(text_report(sample::options(), result), "as read"));
+}
+
+TEST_CASE("other cells that are all lines are called so") {
+  auto result = sample::result();
+  result.input.lines = result.input.other_cells;
+  const std::string text = text_report(sample::options(), result);
+  CHECK(says(text, "210 triangles, 5 lines, 2 components\n"));
+  CHECK(says(text, "9 of lines"));
+}
+
 TEST_CASE("the summary is a line for each step and a table of what decides, all else is in the full text") {
   const std::string text = text_report(sample::options(), sample::result());
   const std::string full = full_report(sample::options(), sample::result());

@@ -27,6 +27,7 @@ RankCells count_rank_cells(const PieceFiles& files, const mpi::Communicator& ran
     take_first(of_piece.repeating.first_triangle, firsts[0]);
     take_first(of_piece.repeating.first_quad, firsts[1]);
     cells.others += of_piece.others;
+    cells.lines += of_piece.lines;
     cells.held_quads += of_piece.held_quads;
     cells.collapsed_quads += of_piece.collapsed_quads;
     cells.repeating.triangles += of_piece.repeating.triangles;
@@ -42,6 +43,7 @@ RankCells count_rank_cells(const PieceFiles& files, const mpi::Communicator& ran
   all.repeating = {ranks.sum(cells.repeating.triangles), ranks.sum(cells.repeating.quads),
                    static_cast<std::size_t>(firsts[0]), static_cast<std::size_t>(firsts[1])};
   all.others = ranks.sum(cells.others);
+  all.lines = ranks.sum(cells.lines);
   all.held_quads = ranks.sum(cells.held_quads);
   all.collapsed_quads = ranks.sum(cells.collapsed_quads);
   all.cells = ranks.sum(cells.cells);

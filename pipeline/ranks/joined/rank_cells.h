@@ -14,6 +14,7 @@ struct RankCells {
   std::int64_t first = 0;  ///< the number of the rank's first cell among them
   std::int64_t cells = 0;
   std::int64_t others = 0;           ///< that are no elements
+  std::int64_t lines = 0;            ///< those of them that are lines or curves
   RepeatingCells repeating;          ///< those of them that repeat a vertex, by number_of_cell()
   std::int64_t held_quads = 0;       ///< quadrilaterals among the others
   std::int64_t collapsed_quads = 0;  ///< CellTriangle::is_quad
