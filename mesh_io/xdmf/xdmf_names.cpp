@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/xdmf/xdmf_names.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -42,7 +41,7 @@ void append_name(std::string& text, const DataArray& array, const ValueName& nam
   text.append("<map key=\"").append(escape_xml_attribute(name.name));
   text.append("\" dim=\"").append(std::to_string(name.dimension));
   text.append(center == Center::node ? "\" center=\"Node" : "\" center=\"Cell");
-  text.append("\" array=\"").append(escape_xml_attribute(array.name)).append(is_set ? "\" set=\"1\">" : "\">");
+  text.append("\" array=\"").append(escape_xml_attribute(array.name)).append(is_set ? R"(" set="1">)" : "\">");
   text.append(std::to_string(name.value)).append("</map>");
 }
 
@@ -95,11 +94,14 @@ FoundNames names_in(const std::filesystem::path& file, std::string_view content)
 
 void name_values(std::vector<ValueName> values, DataArray& array) {
   // One a dimension and value: the first that the file gives.
-  const auto key = [](const ValueName& name) { return std::pair(name.dimension, name.value); };
-  std::ranges::stable_sort(values, {}, key);
-  values.erase(std::unique(values.begin(), values.end(),
-                           [&key](const ValueName& one, const ValueName& next) { return key(one) == key(next); }),
-               values.end());
+  std::map<std::pair<int, std::int64_t>, ValueName> first;
+  for (ValueName& name : values) {
+    first.try_emplace(std::pair(name.dimension, name.value), std::move(name));
+  }
+  values.clear();
+  for (auto& [key, name] : first) {
+    values.push_back(std::move(name));
+  }
   ArrayDescription description = array.description == nullptr ? ArrayDescription() : *array.description;
   description.value_names = std::move(values);
   array.description = std::make_shared<const ArrayDescription>(std::move(description));
