@@ -137,8 +137,9 @@ class WrittenBack(XdmfTest):
         self.write("all.txt", "\n".join(map(str, range(len(points)))))
         os.mkdir(self.path("there"))
         self.run_tool("smooth", "in.xdmf", "there/in.xdmf", "--fixed-ids", "all.txt")
-        for name in ("in.xdmf", "data.h5"):
-            self.assertEqual(self.read("there/" + name), self.read(name))
+        # What a file is called may be the name of something else in another folder.
+        self.assertEqual(self.read("there/in.xdmf"), self.read("in.xdmf").replace(b"data.h5", b"in_data.h5"))
+        self.assertEqual(self.read("there/in_data.h5"), self.read("data.h5"))
 
     def test_tags_are_regions(self):
         self.write_dolfinx("in.xdmf")

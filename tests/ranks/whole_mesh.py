@@ -11,7 +11,7 @@ import tool
 
 RANKS = (0, 1, 2, 3, 5) if tool.thorough else (1, 3)
 # What a run may differ in, and what it says of who has the whole mesh.
-RUN_ALONE = {"timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "command", "date", "notes",
+RUN_ALONE = {"other_outputs", "timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "command", "date", "notes",
              "backend_note", "topology", "arguments"}
 # Some of those that hold a plain mesh of triangles.
 FORMATS = ("off", "vtp", "msh", "off.gz")
