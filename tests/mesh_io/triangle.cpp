@@ -15,6 +15,7 @@
 #include "catch.h"
 #include "mesh_io/text_template.h"
 #include "support/readings.h"
+#include "support/says.h"
 #include "support/scratch_folder.h"
 
 namespace trismooth::triangle_test {
