@@ -27,12 +27,10 @@ std::shared_ptr<const OriginalFile> make_netcdf_original(const NetcdfFile& file,
   }
   std::vector<NumberSites> lists;
   for (NetcdfSites& site : sites) {
-    NumberSites& list = lists.emplace_back();
-    list.encoding = NumberEncoding::big_endian;
-    list.type = site.variable->type == NetcdfType::float32 ? ScalarType::float32 : ScalarType::float64;
-    list.columns = {std::move(site.column)};
-    list.even = EvenSites{NetcdfFile::offset_of(*site.variable, site.leading), size_of(list.type),
-                          file.part_of(*site.variable, site.leading).size};
+    lists.push_back(binary_sites(NumberEncoding::big_endian,
+                                 site.variable->type == NetcdfType::float32 ? ScalarType::float32 : ScalarType::float64,
+                                 NetcdfFile::offset_of(*site.variable, site.leading), 1,
+                                 file.part_of(*site.variable, site.leading).size, {std::move(site.column)}));
   }
   if (lists.empty()) {
     NumberSites& none = lists.emplace_back();
