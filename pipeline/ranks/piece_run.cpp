@@ -176,6 +176,9 @@ class PieceMesh final : public StagedMesh {
     hash(smoothing);
     const LocalPoints before = std::exchange(local_, {});
     enter_frame();
+    if (has_shrunk(run_, before.frame, local_.frame)) {
+      local_ = entered(before.frame, topology_->of_vertices<Point2<double>>(points_of(files_, mesh_)));
+    }
     const Stopwatch watch;
     run_.result.size_change =
         quality_->size_change(before.points, before.frame, local_.points, local_.frame, run_.workers.count());

@@ -108,6 +108,9 @@ SmoothingResult smooth_mesh(RunState& run) {
   const LocalPoints input = std::exchange(run.local, {});
   const std::vector<std::uint8_t> input_reversed = run.found.reversed;
   run.enter_frame();
+  if (has_shrunk(run, input.frame, run.local.frame)) {
+    run.local = entered(input.frame, run.mesh.points);
+  }
   if (smoothing.untangling) {
     for (std::size_t t = 0; t < smoothing.untangling->turned.size(); ++t) {
       run.found.reversed[t] ^= smoothing.untangling->turned[t];

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "trismooth/base/local_frame.h"
 #include "trismooth/base/text/counted.h"
 #include "trismooth/mesh_io/standard_streams.h"
 #include "trismooth/pipeline/stages/run_context.h"
@@ -302,6 +304,19 @@ void warn_of_folds_put_back(RunContext& run, const SmoothingResult& smoothing) {
                     smoothing.quadrilaterals == 0 ? "triangles" : "elements", untangling->inverted_after,
                     untangling->inverted_untangled));
   }
+}
+
+bool has_shrunk(RunContext& run, const LocalFrame& input, const LocalFrame& result) {
+  constexpr int far = 100;  // powers of two
+  const int shrunk = input.exponent - result.exponent;
+  if (shrunk > far) {
+    run.warn(
+        fmt::format("the mesh is 10^{:.0f} times smaller than before, since a vertex came back from far away: elements "
+                    "whose numbers vanish beside that distance count as degenerate here and may be inverted; smooth "
+                    "the result once more, or put that vertex right in the input",
+                    shrunk * std::numbers::ln2 / std::numbers::ln10));
+  }
+  return shrunk > 0;
 }
 
 void warn_of_sizes_out_of_reach(RunContext& run, const SmoothingResult& smoothing) {

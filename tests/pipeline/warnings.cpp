@@ -211,6 +211,35 @@ TEST_CASE("the growth bound is named where it keeps the worst element from what 
   }
 }
 
+TEST_CASE("a vertex that comes back from far away leaves nothing worse in the report, which says what it cannot see") {
+  const auto smoothed = [](double far) {
+    trismooth::MeshDocument document;
+    constexpr int side = 5;
+    for (int v = 0; v < side * side; ++v) {
+      document.points.insert(document.points.end(),
+                             {v % side + 0.2 * (v % 3), v == 12 ? far : v / side + 0.1 * (v % 2), 0});
+    }
+    for (int v = 0; v + side + 1 < side * side; ++v) {
+      if (v % side + 1 < side) {
+        document.cells.append(trismooth::cell_type::quad, trismooth::MixedElement{v, v + 1, v + side + 1, v + side});
+      }
+    }
+    PipelineOptions options;
+    options.smoothing.method = Method::laplacian;
+    return smooth_document(document, options);
+  };
+  for (const double far : {1e6, 1e40, 1e180, 1e300}) {
+    CAPTURE(far);
+    const PipelineResult result = smoothed(far);
+    CHECK(result.smoothing->moved_vertices > 0);
+    CHECK(result.after->inverted + result.after->degenerate <= result.before.inverted + result.before.degenerate);
+    const bool is_told = std::ranges::any_of(result.warnings, [](const std::string& warning) {
+      return says(warning, "times smaller than before, since a vertex came back from far away");
+    });
+    CHECK(is_told == (far > 1e30));
+  }
+}
+
 TEST_CASE("sizes are compared where corners slide, too") {
   // Two rows of vertices: all are on the boundary.
   const auto compared = [](Slide slide) {
