@@ -216,8 +216,8 @@ TEST_CASE("a vertex that comes back from far away leaves nothing worse in the re
     trismooth::MeshDocument document;
     constexpr int side = 5;
     for (int v = 0; v < side * side; ++v) {
-      document.points.insert(document.points.end(),
-                             {v % side + 0.2 * (v % 3), v == 12 ? far : v / side + 0.1 * (v % 2), 0});
+      const int row = v / side;
+      document.points.insert(document.points.end(), {v % side + 0.2 * (v % 3), v == 12 ? far : row + 0.1 * (v % 2), 0});
     }
     for (int v = 0; v + side + 1 < side * side; ++v) {
       if (v % side + 1 < side) {
