@@ -21,7 +21,7 @@ class PieceFiles(ranks_tool.RanksTest):
         self.names = pieces.write_pieces(self.path("big.pvtu"), self.parts)
 
     def test_all_but_coordinates_stays(self):
-        self.run_over(3, "smooth", "big.pvtu", "out.pvtu", "--quiet")
+        self.launch(3, "smooth", "big.pvtu", "out.pvtu", "--quiet")
         self.assertEqual(pieces.sources(self.path("out.pvtu")), [f"out_{i}.vtu" for i in range(4)])
         self.assertEqual(self.read("out.pvtu"), self.read("big.pvtu").replace(b'"big_', b'"out_'))
         places = {}
@@ -187,14 +187,14 @@ class PieceFiles(ranks_tool.RanksTest):
         self.assertIn("holds 1 cell but no triangle", self.run_over(2, "quality", "bare.pvtu", expect=3).err)
 
     def test_other_commands(self):
-        self.assertEqual(self.run_over(3, "--version").out, self.run_over(0, "--version").out)
-        self.run_over(3, "generate", "again.off", "--vertices", 600)
+        self.assertEqual(self.launch(3, "--version").out, self.launch(0, "--version").out)
+        self.launch(3, "generate", "again.off", "--vertices", 600)
         self.assertEqual(self.read("again.off"), self.read("random.off"))
-        self.assertEqual(len(self.errors_of(self.run_over(3, "smooth", expect=2))), 1)
+        self.assertEqual(len(self.errors_of(self.launch(3, "smooth", expect=2))), 1)
 
     def test_gates(self):
-        outcome = self.run_over(3, "smooth", "big.pvtu", "out.pvtu", "--quiet", "--require", "min_shape>=0.99",
-                                expect=1)
+        outcome = self.launch(3, "smooth", "big.pvtu", "out.pvtu", "--quiet", "--require", "min_shape>=0.99",
+                              expect=1)
         self.assertEqual(len([line for line in outcome.err.splitlines() if "min_shape" in line]), 1, outcome)
         self.assertTrue(os.path.exists(self.path("out_3.vtu")))
 

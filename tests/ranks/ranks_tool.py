@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the program under test over the ranks of an MPI job, in a scratch folder."""
 
+import atexit
 import json
 import os
 import pathlib
 import shlex
 import signal
+import socket
 import subprocess
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "end_to_end"))
 
@@ -28,11 +31,100 @@ def without_size_ratio(report):
     return report
 
 
+class LastingJob:
+    """Ranks that run the program as often as they are told to: lasting_rank.cpp."""
+
+    by_size = {}
+
+    @classmethod
+    def of(cls, ranks):
+        if ranks not in cls.by_size:
+            cls.by_size[ranks] = cls(ranks)
+        return cls.by_size[ranks]
+
+    def __init__(self, ranks):
+        self.folder = tempfile.TemporaryDirectory(prefix="trismooth-")
+        paths = [os.path.join(self.folder.name, name) for name in ("socket", "out", "err")]
+        self.said = [open(path, "a+b", buffering=0) for path in paths[1:]]
+        with socket.socket(socket.AF_UNIX) as door:
+            door.bind(paths[0])
+            door.listen(ranks)
+            door.settimeout(longest_run)
+            self.process = subprocess.Popen([*launcher, str(ranks), os.environ["TRISMOOTH_LASTING_RANK"], *paths],
+                                            stdin=subprocess.DEVNULL, stdout=self.said[0], stderr=self.said[1],
+                                            start_new_session=True)
+            try:
+                self.ranks = [door.accept()[0] for _ in range(ranks)]
+            except socket.timeout:
+                self.kill()
+                raise
+        for rank in self.ranks:
+            rank.settimeout(longest_run)
+
+    def run(self, folder, words):
+        """The outcome of a run, as the launcher gives it; an error of one rank alone ends the job, and the run after that
+        has another."""
+        for said in self.said:
+            said.truncate(0)
+        for rank in self.ranks:
+            rank.sendall("\t".join([folder, *words]).encode() + b"\n")
+        try:
+            codes = [self.answer_of(rank) for rank in self.ranks]
+        except socket.timeout as error:
+            del self.by_size[len(self.ranks)]
+            self.kill()
+            raise AssertionError(f"{' '.join(words)} hangs on {len(self.ranks)} ranks") from error
+        code = self.end() if b"" in codes else next((code for code in map(int, codes) if code != 0), 0)
+        texts = []
+        for said in self.said:
+            said.seek(0)
+            texts.append(said.read().decode(errors="replace"))
+        return tool.Outcome(code, *texts)
+
+    @staticmethod
+    def answer_of(rank):
+        """A line, or nothing where the rank has ended."""
+        try:
+            return rank.recv(16)
+        except ConnectionResetError:
+            return b""
+
+    def end(self):
+        """Answers the launcher's exit code."""
+        del self.by_size[len(self.ranks)]
+        for rank in self.ranks:
+            rank.close()
+        try:
+            return self.process.wait(longest_run)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise
+
+    def kill(self):
+        os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
+
+
+@atexit.register
+def end_lasting_jobs():
+    for job in list(LastingJob.by_size.values()):
+        job.end()
+
+
 class RanksTest(tool.ToolTest):
     """A test with a folder of its own, as ToolTest's, and a mesh in it."""
 
     def run_over(self, ranks, *arguments, expect=0):
-        """Runs the program on so many ranks; 0: without a launcher."""
+        """Runs the program on so many ranks, which are there for the next run, too; 0: in a process, without a launcher."""
+        words = list(map(str, arguments))
+        if ranks == 0:
+            return self.launch(0, *words, expect=expect)
+        outcome = LastingJob.of(ranks).run(self.folder, words)
+        self.assertEqual(outcome.code, expect, f"{' '.join(words)}\n{outcome}")
+        return outcome
+
+    def launch(self, ranks, *arguments, expect=0):
+        """The same with ranks of its own, as users start it."""
         outcome = self.run_job([*(launcher + [str(ranks)] if ranks else []), tool.program, *map(str, arguments)])
         self.assertEqual(outcome.code, expect, f"{' '.join(map(str, arguments))}\n{outcome}")
         return outcome

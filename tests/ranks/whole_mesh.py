@@ -153,7 +153,7 @@ class WholeMesh(ranks_tool.RanksTest):
     def test_single_on_standard_output(self):
         write_both(self, self.random_mesh(300))
         self.run_tool("smooth", "whole.vtu", "alone.off", "--quiet")
-        outcome = self.run_over(3, "smooth", "big.pvtu", "-", "--single", "--format", "off", "--quiet")
+        outcome = self.launch(3, "smooth", "big.pvtu", "-", "--single", "--format", "off", "--quiet")
         self.assertEqual(outcome.out.encode(), self.read("alone.off"))
 
     def test_arrays_of_single(self):
