@@ -15,7 +15,7 @@ struct GrowthCase {
   std::function<std::function<void()>(int size, const ScratchFolder& folder)> prepare;
 };
 
-/// Files of every format through the command line.
+/// Files of every format through the program.
 std::vector<GrowthCase> file_cases();
 
 /// Files of the formats with groups and names: what they may have many of.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -21,14 +22,18 @@
 
 namespace {
 
-/// Smooths a file that has much to be said of, and says it everywhere.
-GrowthCase told_of(const std::string& name, int size, const std::string& input, std::string (*make)(int)) {
+/// Smooths a file that has much to be said of, and says it everywhere. What the page of a small mesh takes has more to
+/// do with the picture on it than with the size of the mesh: `reports` spares those that grow with it.
+GrowthCase told_of(const std::string& name, int size, const std::string& input, std::string (*make)(int),
+                   const std::vector<std::string>& reports = {"report.json", "report.html"}) {
   return {name + ": " + input + " to reports", size, [=](int count, const ScratchFolder& folder) {
             const std::string from = folder.write("in." + input, make(count));
             const std::string to = folder / "out.off";
-            const std::string json = folder / "report.json";
-            const std::string page = folder / "report.html";
-            return [=] { run_tool({from, to, "--verbose", "--report", json, "--report", page}); };
+            std::vector<std::filesystem::path> files;
+            for (const std::string& report : reports) {
+              files.emplace_back(folder / report);
+            }
+            return [=] { run_tool(from, to, files); };
           }};
 }
 
@@ -61,15 +66,17 @@ std::string quadrilaterals_not_in_turn(int size) {
   return quadrilaterals_off(mesh);
 }
 
-/// Four triangles around a vertex, in the words of a format: made up to by many times something else.
+/// Four triangles around a vertex, in the words of a format: made up to by many times something else. They are flat, so
+/// that the picture on a page is small: it takes no longer than what is told of.
 constexpr std::string_view vtk_begin = "# vtk DataFile Version 3.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n";
-constexpr std::string_view vtk_points = " double\n0 0 0 1 0 0 1 1 0 0 1 0 .6 .7 0\n";
+constexpr std::string_view vtk_points = " double\n0 0 0 1 0 0 1 .1 0 0 .1 0 .6 .07 0\n";
 constexpr std::string_view vtk_cells =
     "CELLS 4 16\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n"
     "CELL_TYPES 4\n5 5 5 5\n";
 constexpr std::string_view vtu_begin = "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"><UnstructuredGrid>\n";
 constexpr std::string_view vtu_points_and_cells =
-    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0 1 0 0 1 1 0 0 1 0 .6 .7 0</DataArray></Points>"
+    "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\">0 0 0 1 0 0 1 .1 0 0 .1 0 .6 .07 "
+    "0</DataArray></Points>"
     "<Cells><DataArray type=\"Int32\" Name=\"connectivity\">0 1 4 1 2 4 2 3 4 3 0 4</DataArray>"
     "<DataArray type=\"Int32\" Name=\"offsets\">3 6 9 12</DataArray>"
     "<DataArray type=\"UInt8\" Name=\"types\">5 5 5 5</DataArray></Cells></Piece>\n";
@@ -291,7 +298,8 @@ std::vector<GrowthCase> file_cases() {
   cases.insert(cases.end(), {
                                 file_case("a fan of one vertex", 300, "off", "off", &star_off),
                                 file_case("a chain in quadrilaterals", 100, "off", "vtk", &chain_of_quadrilaterals),
-                                told_of("quadrilaterals that are not in turn", 100, "off", &quadrilaterals_not_in_turn),
+                                told_of("quadrilaterals that are not in turn", 100, "off", &quadrilaterals_not_in_turn,
+                                        {"report.json"}),
                                 file_case("field arrays", 300, "vtu", "vtu", &vtu_fields),
                                 told_of("arrays of strings", 100, "vtk", &vtk_strings),
                                 file_case("lookup tables", 100, "vtk", "vtu", &vtk_lookup_tables),
@@ -304,7 +312,7 @@ std::vector<GrowthCase> file_cases() {
                                 file_case("points of one slot", 100, "stl", "off", &stl_of_one_slot),
                                 file_case("solids", 100, "stl", "vtu", &stl_solids),
                                 file_case("groups and materials", 100, "obj", "vtu", &obj_groups),
-                                told_of("groups that overlap", 1200, "vtk", &vtk_overlapping_groups),
+                                told_of("groups that overlap", 600, "vtk", &vtk_overlapping_groups),
                                 file_case("properties", 100, "ply", "ply", &ply_properties),
                                 file_case("properties", 100, "ply", "vtu", &ply_properties),
                                 file_case("lists", 100, "ply", "vtu", &ply_lists),

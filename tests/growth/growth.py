@@ -5,7 +5,6 @@ and a little more for what is sorted. Counted by callgrind, whose counts are the
     growth.py PROGRAM [PART-OF-A-CASE'S-NAME]
 """
 
-import glob
 import os
 import re
 import shutil
@@ -20,20 +19,22 @@ MOST = 1.3  # n log n grows by 1.2 beyond the factor at these sizes, n^1.5 by 2,
 def counts(program, only, folder):
     """{case: {"none", "small", "large": instructions}}"""
     outcome = subprocess.run(
-        ["valgrind", "--tool=callgrind", "--instr-atstart=no", "--dump-line=no", f"--callgrind-out-file={folder}/out",
-         program, *only],
+        ["valgrind", "--tool=callgrind", "--instr-atstart=no", "--callgrind-out-file=/dev/null",
+         f"--log-file={folder}/log", program, *only],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env={**os.environ, "TMPDIR": folder}, check=False)
+    with open(f"{folder}/log", encoding="utf-8", errors="replace") as file:
+        log = file.read()
     if outcome.returncode != 0:
-        print(outcome.stdout.decode(errors="replace"))
+        print(outcome.stdout.decode(errors="replace"), log)
         sys.exit(outcome.returncode)
     found = {}
-    for path in glob.glob(f"{folder}/out.*"):
-        with open(path, encoding="utf-8", errors="replace") as file:
-            text = file.read()
-        trigger = re.search(r"^desc: Trigger: Client Request: (\w+) (.*)$", text, re.MULTILINE)
-        total = re.search(r"^(?:summary|totals): (\d+)", text, re.MULTILINE)
-        if trigger and total:
-            found.setdefault(trigger.group(2), {})[trigger.group(1)] = int(total.group(1))
+    before = 0
+    for told in log.split("instrumentation: on\n")[1:]:
+        count = sum(map(int, re.findall(r"^events-\d+: (\d+)$", told, re.MULTILINE)))  # of each thread
+        work = re.search(r"up to here: (\w+) (.*)$", told, re.MULTILINE)
+        if work:
+            found.setdefault(work[2], {})[work[1]] = count - before
+        before = count
     return found
 
 
@@ -48,6 +49,9 @@ def main():
         return 1
     too_fast = 0
     for case, of in sorted(found.items()):
+        if not of["none"] < of["small"] < of["large"]:
+            print(f"{case}: does not grow with its input, so there is nothing to see: {of}")
+            return 1
         growth = (of["large"] - of["none"]) / (of["small"] - of["none"]) / FACTOR
         too_fast += growth > MOST
         print(f"{growth:6.2f}  {of['none'] / 1e6:8.1f} M {of['small'] / 1e6:8.1f} M  {of['large'] / 1e6:8.1f} M  {case}"

@@ -3,24 +3,29 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <sstream>
 
 #include "trismooth/mesh_io/mesh_file.h"
-#include "trismooth/pipeline/cli/command_line.h"
+#include "trismooth/pipeline/cli/mesh_run.h"
+#include "trismooth/pipeline/cli/printable_stream.h"
 
 #include "support/hostile_meshes.h"
 
-void run_tool(std::vector<std::string> words) {
-  words.insert(words.begin(), {"trismooth", "smooth"});
-  words.insert(words.end(), {"--backend", "cpu", "--threads", "1", "--max-sweeps", "2"});
-  std::vector<const char*> arguments;
-  for (const std::string& word : words) {
-    arguments.push_back(word.c_str());
-  }
-  std::ostringstream out;
-  std::ostringstream err;
-  if (trismooth::run_command_line(static_cast<int>(arguments.size()), arguments.data(), {out, err}) != 0) {
-    std::fputs(err.str().c_str(), stdout);
+void run_tool(const std::string& from, const std::string& to, const std::vector<std::filesystem::path>& reports) {
+  trismooth::MeshRunSettings settings;
+  settings.pipeline.input = from;
+  settings.pipeline.output = to;
+  settings.pipeline.smoothing.threads = 1;
+  settings.pipeline.smoothing.max_sweeps = 2;
+  settings.reports = reports;
+  settings.verbosity = reports.empty() ? trismooth::Verbosity::normal : trismooth::Verbosity::verbose;
+  std::ostringstream text;
+  trismooth::PrintableStream said(text);
+  try {
+    trismooth::run_on_mesh(settings, {said, said});
+  } catch (const std::exception& error) {
+    std::printf("%s: %s\n", from.c_str(), error.what());
     std::exit(1);
   }
 }
@@ -30,7 +35,7 @@ GrowthCase file_case(const std::string& name, int size, const std::string& input
   return {name + ": " + input + " to " + output, size, [=](int count, const ScratchFolder& folder) {
             const std::string from = folder.write("in." + input, make(count));
             const std::string to = folder / ("out." + output);
-            return [=] { run_tool({from, to}); };
+            return [=] { run_tool(from, to); };
           }};
 }
 
@@ -58,6 +63,6 @@ GrowthCase chain_in(const std::string& format, const std::string& extension) {
             const std::string from = folder / ("in." + extension);
             const std::string to = folder / ("out." + extension);
             write_mesh(from, trismooth::read_mesh(off), {}, {1, trismooth::format_named(format)});
-            return [=] { run_tool({from, to}); };
+            return [=] { run_tool(from, to); };
           }};
 }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "cases.h"
 #include "support/test_meshes.h"
 
-/// Has the program smooth, with these arguments and some that keep it short; ends this program where it fails.
-void run_tool(std::vector<std::string> words);
+/// Smooths a file as the program does once it has understood its arguments, which takes longer than a small mesh does,
+/// and shortly; says all there is to say where there are reports. Ends this program where it fails.
+void run_tool(const std::string& from, const std::string& to, const std::vector<std::filesystem::path>& reports = {});
 
 /// Smooths a file with the bytes make(size), named `input`, to one named `output`.
 GrowthCase file_case(const std::string& name, int size, const std::string& input, const std::string& output,
