@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Preloaded into the ranks of a job: has operator new fail on one of them, as it does where memory is used up. In the
-// environment: FAILING_RANK; FAIL_AT, the number, from 1, of the allocation that fails, of those that count, which have
-// 256 bytes at least and are made by the program itself
-// or the standard library (other libraries need not stand it); FAILING_COUNT, how many fail from there on. COUNT_FILE:
-// gets the number of those that count.
+// Preloaded into the ranks of a job that lasts: has operator new fail on one of them, as it does where memory is used
+// up. In the environment of a run: FAILING_RANK; FAIL_AT, the number, from 1, of the allocation that fails, of those
+// that count, which have 256 bytes at least and are made by the program itself or the standard library (other libraries
+// need not stand it), 0 where none is to fail; FAILING_COUNT, how many fail from there on. COUNT_FILE: gets the number
+// of those that count.
 
 #include <atomic>
 #include <cstdio>
@@ -31,26 +31,26 @@ bool is_failing_rank() {
 
 std::atomic<long> counted{0};
 
-/// Of a process: what fails in it, and at its end how many allocations there were.
+/// What fails in a run.
 struct Plan {
   bool is_on = is_failing_rank();
   long first = number_of("FAIL_AT");
   long count = number_of("FAILING_COUNT");
-  const char* count_file = std::getenv("COUNT_FILE");
-
-  Plan() = default;
-  Plan(const Plan&) = delete;
-  Plan& operator=(const Plan&) = delete;
-  ~Plan() {
-    if (!is_on || count_file == nullptr) {
-      return;
-    }
-    if (std::FILE* const file = std::fopen(count_file, "w")) {
-      std::fprintf(file, "%ld\n", counted.load());
-      std::fclose(file);
-    }
-  }
 };
+
+Plan plan;
+
+/// Behind a run: how many allocations there were.
+void write_count() {
+  const char* const path = std::getenv("COUNT_FILE");
+  if (!plan.is_on || path == nullptr || counted == 0) {
+    return;
+  }
+  if (std::FILE* const file = std::fopen(path, "w")) {
+    std::fprintf(file, "%ld\n", counted.load());
+    std::fclose(file);
+  }
+}
 
 /// Whether that is code of the program, or of the standard library.
 bool counts(const void* caller) {
@@ -63,7 +63,6 @@ bool counts(const void* caller) {
 }
 
 bool fails(std::size_t size, const void* caller) {
-  static const Plan plan;
   // Before the program has said what is to be done without memory, it has not begun.
   if (!plan.is_on || size < failing_bytes || std::get_new_handler() == nullptr || !counts(caller)) {
     return false;
@@ -89,6 +88,13 @@ void* allocated(std::size_t size, std::size_t alignment, const void* caller) {
 }
 
 }  // namespace
+
+/// lasting_rank.cpp calls it in front of a run, whose environment it has by then, and behind it.
+extern "C" void trismooth_plan_failures() {
+  write_count();
+  plan = {};
+  counted = 0;
+}
 
 void* operator new(std::size_t size) {
   return allocated(size, 0, __builtin_return_address(0));

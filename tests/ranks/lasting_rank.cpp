@@ -4,8 +4,8 @@
 //
 //     lasting_rank SOCKET STDOUT STDERR
 //
-// A line from the socket is a run: its folder and the program's words, with tabs between them. The answer is a line
-// with the exit code.
+// A line from the socket is a run: NAME=VALUE for the environment, the folder and the program's words, with tabs
+// between them. The answer is a line with the exit code.
 
 #include <csignal>
 #include <cstdio>
@@ -14,6 +14,7 @@
 #include <iostream>
 #include <vector>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <mpi.h>
 #include <sys/socket.h>
@@ -59,11 +60,23 @@ void redirect(int stream, const char* path) {
   }
 }
 
+/// Tells failing_new.cpp, where that is preloaded, of the environment of a run, and that the run is over.
+void tell_of_run() {
+  if (void* const told = ::dlsym(RTLD_DEFAULT, "trismooth_plan_failures")) {
+    reinterpret_cast<void (*)()>(told)();
+  }
+}
+
 int run(char* line) {
   line[std::strcspn(line, "\n")] = '\0';
   std::vector<const char*> words;
-  while (const char* const word = ::strsep(&line, "\t")) {
-    words.push_back(word);
+  while (char* word = ::strsep(&line, "\t")) {
+    if (words.empty() && *word != '/') {
+      const char* const name = ::strsep(&word, "=");
+      ::setenv(name, word, 1);
+    } else {
+      words.push_back(word);
+    }
   }
   if (::chdir(words.front()) != 0) {
     fail(words.front());
@@ -73,7 +86,12 @@ int run(char* line) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     std::signal(signal, SIG_DFL);
   }
-  return trismooth::run_program(static_cast<int>(words.size()), words.data(), {&trismooth::add_bench_command});
+  tell_of_run();
+  const int code =
+      trismooth::run_program(static_cast<int>(words.size()), words.data(), {&trismooth::add_bench_command});
+  std::cout.flush();
+  tell_of_run();
+  return code;
 }
 
 }  // namespace
@@ -86,9 +104,7 @@ int main(int /*argc*/, char** argv) {
   redirect(STDERR_FILENO, argv[3]);
   char* line = nullptr;
   for (std::size_t room = 0; ::getline(&line, &room, test) > 0;) {
-    const int code = run(line);
-    std::cout.flush();
-    ::dprintf(::fileno(test), "%d\n", code);
+    ::dprintf(::fileno(test), "%d\n", run(line));
   }
   std::free(line);
   PMPI_Finalize();

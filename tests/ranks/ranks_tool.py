@@ -5,9 +5,11 @@ import atexit
 import json
 import os
 import pathlib
+import re
 import shlex
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -34,15 +36,19 @@ def without_size_ratio(report):
 class LastingJob:
     """Ranks that run the program as often as they are told to: lasting_rank.cpp."""
 
-    by_size = {}
+    running = {}
 
     @classmethod
-    def of(cls, ranks):
-        if ranks not in cls.by_size:
-            cls.by_size[ranks] = cls(ranks)
-        return cls.by_size[ranks]
+    def of(cls, ranks, *starter):
+        """`starter`: what starts each rank, as env does."""
+        key = (ranks, *starter)
+        if key not in cls.running:
+            cls.running[key] = cls(key)
+        return cls.running[key]
 
-    def __init__(self, ranks):
+    def __init__(self, key):
+        self.key = key
+        ranks, *starter = key
         self.folder = tempfile.TemporaryDirectory(prefix="trismooth-")
         paths = [os.path.join(self.folder.name, name) for name in ("socket", "out", "err")]
         self.said = [open(path, "a+b", buffering=0) for path in paths[1:]]
@@ -50,9 +56,9 @@ class LastingJob:
             door.bind(paths[0])
             door.listen(ranks)
             door.settimeout(longest_run)
-            self.process = subprocess.Popen([*launcher, str(ranks), os.environ["TRISMOOTH_LASTING_RANK"], *paths],
-                                            stdin=subprocess.DEVNULL, stdout=self.said[0], stderr=self.said[1],
-                                            start_new_session=True)
+            self.process = subprocess.Popen(
+                [*launcher, str(ranks), *starter, os.environ["TRISMOOTH_LASTING_RANK"], *paths],
+                stdin=subprocess.DEVNULL, stdout=self.said[0], stderr=self.said[1], start_new_session=True)
             try:
                 self.ranks = [door.accept()[0] for _ in range(ranks)]
             except socket.timeout:
@@ -61,25 +67,38 @@ class LastingJob:
         for rank in self.ranks:
             rank.settimeout(longest_run)
 
-    def run(self, folder, words):
+    def run(self, folder, words, **environment):
         """The outcome of a run, as the launcher gives it; an error of one rank alone ends the job, and the run after that
         has another."""
+        line = "\t".join([*(f"{name}={value}" for name, value in environment.items()), folder, *words])
         for said in self.said:
             said.truncate(0)
         for rank in self.ranks:
-            rank.sendall("\t".join([folder, *words]).encode() + b"\n")
+            rank.sendall(line.encode() + b"\n")
         try:
             codes = [self.answer_of(rank) for rank in self.ranks]
         except socket.timeout as error:
-            del self.by_size[len(self.ranks)]
+            del self.running[self.key]
             self.kill()
             raise AssertionError(f"{' '.join(words)} hangs on {len(self.ranks)} ranks") from error
-        code = self.end() if b"" in codes else next((code for code in map(int, codes) if code != 0), 0)
+        has_ended = b"" in codes
+        code = self.end() if has_ended else next((code for code in map(int, codes) if code != 0), 0)
         texts = []
         for said in self.said:
             said.seek(0)
             texts.append(said.read().decode(errors="replace"))
+        if has_ended:
+            self.close()
         return tool.Outcome(code, *texts)
+
+    def address_space(self):
+        """The most addresses that each rank has had so far, in KiB, in whatever order."""
+        peaks = []
+        for rank in self.ranks:
+            process, _, _ = struct.unpack("3i", rank.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, 12))
+            with open(f"/proc/{process}/status", encoding="ascii") as status:
+                peaks.append(int(re.search(r"VmPeak:\s*(\d+) kB", status.read())[1]))
+        return peaks
 
     @staticmethod
     def answer_of(rank):
@@ -91,7 +110,7 @@ class LastingJob:
 
     def end(self):
         """Answers the launcher's exit code."""
-        del self.by_size[len(self.ranks)]
+        del self.running[self.key]
         for rank in self.ranks:
             rank.close()
         try:
@@ -100,6 +119,11 @@ class LastingJob:
             self.kill()
             raise
 
+    def close(self):
+        for said in self.said:
+            said.close()
+        self.folder.cleanup()
+
     def kill(self):
         os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
@@ -107,8 +131,9 @@ class LastingJob:
 
 @atexit.register
 def end_lasting_jobs():
-    for job in list(LastingJob.by_size.values()):
+    for job in list(LastingJob.running.values()):
         job.end()
+        job.close()
 
 
 class RanksTest(tool.ToolTest):
