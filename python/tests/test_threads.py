@@ -112,8 +112,8 @@ def child_smooths(points, triangles, expected, threads):
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 @pytest.mark.parametrize("threads", [0, 1, 4])
 @pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
-def test_a_forked_process_does_not_hang_and_gives_the_same_bits(large_mesh, threads):
-    points, triangles = large_mesh
+def test_a_forked_process_does_not_hang_and_gives_the_same_bits(threads):
+    points, triangles = grid(300, 200, shift=0.45)
     expected = trismooth.smooth(points, triangles, threads=4, max_sweeps=5).points  # threads are at work before the fork
     expected = trismooth.smooth(points, triangles).points
     child = multiprocessing.get_context("fork").Process(target=child_smooths, args=(points, triangles, expected, threads))
