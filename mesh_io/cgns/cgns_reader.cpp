@@ -198,7 +198,8 @@ class CgnsReader {
     (shape.type == ScalarType::float32 ? has_float32_ : has_float64_) = true;
     document_.point_type = has_float64_ ? ScalarType::float64 : ScalarType::float32;
     document_.has_float32_axis = has_float32_ && has_float64_;
-    columns_.push_back({data, 0, zone.points, {.component = static_cast<std::uint8_t>(axis)}, zone.first_point});
+    columns_.push_back(hdf5_column(tree_.file(), data, 0, zone.points, {{.component = static_cast<std::uint8_t>(axis)}},
+                                   zone.first_point));
   }
 
   /// "Vertex" where a node with these children does not say where its members are.

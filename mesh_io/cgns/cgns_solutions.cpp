@@ -161,8 +161,8 @@ class CgnsSolutionsReader {
           all[(values.zone->first_point + i) * width + k] = own[i];
         }
         if (std::is_floating_point_v<T>) {
-          solutions_.columns.push_back(
-              {values.data, 0, own.size(), {name, static_cast<std::uint8_t>(k)}, values.zone->first_point});
+          solutions_.columns.push_back(hdf5_column(tree_.file(), values.data, 0, own.size(),
+                                                   {{name, static_cast<std::uint8_t>(k)}}, values.zone->first_point));
         }
       }
     }

@@ -50,7 +50,7 @@ class SitePatcher {
     const bool swapped = is_swapped(sites_.encoding);
     T stored{};
     std::memcpy(&stored, place, sizeof(T));
-    if (differs(swapped ? with_bytes_reversed(stored) : stored, value)) {
+    if (changes(swapped ? with_bytes_reversed(stored) : stored, value)) {
       stored = swapped ? with_bytes_reversed(value) : value;
       std::memcpy(place, &stored, sizeof(T));
     }
@@ -74,7 +74,7 @@ class SitePatcher {
     T plain{};
     PlainNumbers numbers(bytes_, offset);
     if (numbers.next(plain)) {
-      return {numbers.offset() - offset, differs(plain, value) ? write_text(value, target) : 0};
+      return {numbers.offset() - offset, changes(plain, value) ? write_text(value, target) : 0};
     }
     const std::size_t end = std::min(bytes_.find_first_of(token_ends, offset), bytes_.size());
     const std::string_view token = bytes_.substr(offset, end - offset);
@@ -84,7 +84,7 @@ class SitePatcher {
     } else {
       stored = parse_integer_as<T>(token);
     }
-    const bool stays = stored ? !differs(*stored, value) : is_no_number(value);
+    const bool stays = stored ? !changes(*stored, value) : is_no_number(value);
     return {token.size(), stays ? 0 : write_text(value, target)};
   }
 
@@ -94,7 +94,7 @@ class SitePatcher {
     const std::size_t end = std::min(bytes_.find_first_of(token_ends, begin), bytes_.size());
     const std::string_view token = bytes_.substr(begin, end - begin);
     const auto stored = parse_fortran_number<double>(token);
-    if (stored && !differs(*stored, value)) {
+    if (stored && !changes(*stored, value)) {
       return {end - offset, 0};
     }
     const std::size_t letter = token.find_first_of("dDeEqQ");
@@ -127,18 +127,10 @@ class SitePatcher {
     return false;
   }
 
-  /// What is no number stays as it is written. A zero's sign counts: what is written is read back bit for bit. Where a
-  /// vertex stands at several sites, they were found equal with whatever sign each has.
+  /// Where a vertex stands at several sites, they were found equal with whatever sign each zero has.
   template <class T>
-  bool differs(T stored, T value) const {
-    if constexpr (std::is_floating_point_v<T>) {
-      if (std::isnan(stored) && std::isnan(value)) {
-        return false;
-      }
-      return stored != value || (sites_.vertices.empty() && std::signbit(stored) != std::signbit(value));
-    } else {
-      return stored != value;
-    }
+  bool changes(T stored, T value) const {
+    return differs(stored, value) && (sites_.vertices.empty() || stored != value);
   }
 
   std::string_view bytes_;
@@ -194,7 +186,7 @@ class PatchedStretch {
     };
     Order order;
     for (std::size_t site = first; site < last; ++site) {
-      const std::size_t vertex = sites_.vertices.empty() ? site : static_cast<std::size_t>(sites_.vertices[site]);
+      const std::size_t vertex = sites_.vertex_at(site);
       for (const std::size_t column : columns_of(site, order)) {
         const ColumnValues& values = values_[column];
         if (values.first == nullptr) {
@@ -228,7 +220,7 @@ class PatchedStretch {
       }
       visit_scalar_type(patcher_.type_of(column), [&](auto zero) {
         for (std::size_t site = first; site < last; ++site) {
-          const std::size_t vertex = sites_.vertices.empty() ? site : static_cast<std::size_t>(sites_.vertices[site]);
+          const std::size_t vertex = sites_.vertex_at(site);
           patcher_.replace(target + (offset_of(site, column) - begin),
                            static_cast<decltype(zero)>(values.first[vertex * values.stride]));
         }
@@ -267,35 +259,25 @@ class PatchedStretch {
 
 }  // namespace
 
-NumberSites binary_sites(NumberEncoding encoding, ScalarType type, std::uint64_t begin, std::size_t step,
-                         std::size_t count, std::vector<SiteColumn> columns) {
-  const std::size_t size = size_of(type);
+NumberSites binary_sites(NumberEncoding encoding, ScalarType type, std::uint64_t begin, std::size_t count,
+                         std::vector<SiteColumn> columns) {
   NumberSites sites;
   sites.encoding = encoding;
   sites.type = type;
+  sites.even = EvenSites{begin, columns.size() * size_of(type), count, size_of(type)};
   sites.columns = std::move(columns);
-  const EvenSites even{begin, step * size, count};
-  if (size == sizeof(double) || sites.columns.size() == 1) {
-    sites.even = even;
-    return sites;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t column = 0; column < sites.columns.size(); ++column) {
-      sites.offsets.push_back(even.begin + i * even.step + column * size);
-    }
-  }
   return sites;
 }
 
-bool sort_apart(std::vector<const NumberSites*>& lists) {
-  std::erase_if(lists, [](const NumberSites* list) { return list->size() == 0; });
-  std::ranges::sort(lists, {}, [](const NumberSites* list) { return list->offset_of(0, 0); });
+bool sort_apart(std::vector<NumberSites>& lists) {
+  std::erase_if(lists, [](const NumberSites& list) { return list.size() == 0; });
+  std::ranges::sort(lists, {}, [](const NumberSites& list) { return list.offset_of(0, 0); });
   std::uint64_t end = 0;
-  for (const NumberSites* const list : lists) {
-    if (list->offset_of(0, 0) < end) {
+  for (const NumberSites& list : lists) {
+    if (list.offset_of(0, 0) < end) {
       return false;
     }
-    end = list->offset_of(list->size() - 1, list->columns.size() - 1) + size_of(list->type);
+    end = list.offset_of(list.size() - 1, list.columns.size() - 1) + size_of(list.type);
   }
   return true;
 }

@@ -23,9 +23,8 @@ class PatchedOriginal : public OriginalFile {
   }
 
   bool keeps_values_of(std::string_view point_array) const override {
-    return std::ranges::any_of(sites_, [point_array](const NumberSites& sites) {
-      return std::ranges::find(sites.columns, point_array, &SiteColumn::array) != sites.columns.end();
-    });
+    return std::ranges::any_of(sites_,
+                               [point_array](const NumberSites& sites) { return sites.has_values_of(point_array); });
   }
 
  private:

@@ -3,48 +3,20 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <new>
 #include <stdexcept>
-#include <utility>
 
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/saturating_product.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/hdf5/hdf5_child.h"
 #include "trismooth/mesh_io/hdf5/hdf5_handle.h"
+#include "trismooth/mesh_io/hdf5/hdf5_image.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 
 namespace {
-
-/// The memory that HDF5 works in, which is this object's: a file that is closed there is whole, other than an image
-/// that HDF5 hands out of one that is open.
-struct Hdf5Image {
-  explicit Hdf5Image(std::string_view all) : bytes(all), size(all.size()) {}
-
-  std::string bytes;  ///< longer than the file, at times
-  std::size_t size;
-
-  /// Gives the memory, with room for `wanted` bytes; null where there is not as much.
-  static void* grow(void*, std::size_t wanted, H5FD_file_image_op_t, void* image) {
-    std::string& bytes = static_cast<Hdf5Image*>(image)->bytes;
-    try {
-      bytes.resize(std::max(bytes.size(), wanted));
-    } catch (const std::bad_alloc&) {
-      return nullptr;
-    }
-    return bytes.data();
-  }
-  static void* give(std::size_t, H5FD_file_image_op_t, void* image) {
-    return static_cast<Hdf5Image*>(image)->bytes.data();
-  }
-  static void* copy_nothing(void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) { return to; }
-  static herr_t free_nothing(void*, H5FD_file_image_op_t, void*) { return 0; }
-  static void* same(void* image) { return image; }
-  static herr_t keep(void*) { return 0; }
-};
 
 /// Whether a filter keeps less than the values: others would be read than were written.
 bool loses_values(const Hdf5Handle& dataset) {
@@ -76,19 +48,9 @@ void overwrite(const Hdf5Handle& file, const std::string& dataset, const std::ve
 void serve_changed(std::string_view bytes, const Hdf5Values& values, const Hdf5Channel& channel) {
   H5PLset_loading_state(0);
   try {
-    Hdf5Image image(bytes);
-    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-    H5FD_file_image_callbacks_t callbacks{&Hdf5Image::give,
-                                          &Hdf5Image::copy_nothing,
-                                          &Hdf5Image::grow,
-                                          &Hdf5Image::free_nothing,
-                                          &Hdf5Image::same,
-                                          &Hdf5Image::keep,
-                                          &image};
-    H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false);
-    H5Pset_file_image_callbacks(access.get(), &callbacks);
-    H5Pset_file_image(access.get(), image.bytes.data(), image.size);
-    Hdf5Handle file(H5Fopen("trismooth file", H5F_ACC_RDWR, access.get()), &H5Fclose);
+    std::string memory(bytes);
+    Hdf5Image image(&memory);
+    Hdf5Handle file = image.open();
     if (!file.is_valid()) {
       throw Hdf5Refusal("cannot be opened by HDF5" + hdf5_reason());
     }
@@ -100,7 +62,7 @@ void serve_changed(std::string_view bytes, const Hdf5Values& values, const Hdf5C
       throw Hdf5Refusal("cannot be written by HDF5" + hdf5_reason());
     }
     // What stands behind the end of HDF5's part stays.
-    channel.answer(std::string_view(image.bytes).substr(0, std::max(image.size, static_cast<std::size_t>(size))));
+    channel.answer(std::string_view(memory).substr(0, std::max(bytes.size(), static_cast<std::size_t>(size))));
   } catch (const Hdf5Refusal& refusal) {
     channel.refuse(refusal.what());
   } catch (const std::bad_alloc&) {
@@ -110,38 +72,22 @@ void serve_changed(std::string_view bytes, const Hdf5Values& values, const Hdf5C
 
 }  // namespace
 
-std::optional<NumberSites> hdf5_sites(const Hdf5Reader& reader, const std::string& dataset, std::size_t begin,
-                                      std::size_t step, std::size_t count, std::vector<SiteColumn> columns) {
-  const std::optional<Hdf5Place> place = reader.place_of(dataset);
-  const Hdf5Shape shape = reader.shape_of(dataset);
-  const bool is_whole =
-      count == 0 || begin + (count - 1) * step + columns.size() <= static_cast<std::size_t>(shape.count());
-  if (!place || !is_whole || (shape.type != ScalarType::float32 && shape.type != ScalarType::float64)) {
-    return std::nullopt;
-  }
-  const NumberEncoding encoding = place->is_big_endian ? NumberEncoding::big_endian : NumberEncoding::little_endian;
-  return binary_sites(encoding, *shape.type, place->begin + begin * size_of(*shape.type), step, count,
-                      std::move(columns));
-}
-
 void write_changed_hdf5(const std::filesystem::path& file, std::string_view bytes, const Hdf5Values& values) {
+  std::size_t numbers = 0;
+  for (const auto& [dataset, of_dataset] : values) {
+    numbers += of_dataset.size();
+  }
   std::string changed;
-  if (!values.empty()) {
-    std::size_t numbers = 0;
-    for (const auto& [dataset, of_dataset] : values) {
-      numbers += of_dataset.size();
-    }
-    try {
-      Hdf5Child child(Hdf5Child::limits_of(bytes.size()),
-                      [&](const Hdf5Channel& channel) { serve_changed(bytes, values, channel); });
-      // What does not compress well takes more than before, beside what stood there.
-      changed = child.answer(saturating_product(4, bytes.size() + sizeof(double) * numbers) + (1U << 20));
-    } catch (const std::runtime_error& error) {
-      throw WriteError(file, error.what());
-    }
+  try {
+    Hdf5Child child(Hdf5Child::limits_of(bytes.size()),
+                    [&](const Hdf5Channel& channel) { serve_changed(bytes, values, channel); });
+    // What does not compress well takes more than before, beside what stood there.
+    changed = child.answer(saturating_product(4, bytes.size() + sizeof(double) * numbers) + (1U << 20));
+  } catch (const std::runtime_error& error) {
+    throw WriteError(file, error.what());
   }
   BufferedWriter writer(file);
-  writer.write(values.empty() ? bytes : changed);
+  writer.write(changed);
   writer.close();
 }
 

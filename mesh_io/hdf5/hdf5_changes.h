@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "trismooth/mesh_io/document/number_sites.h"
-#include "trismooth/mesh_io/hdf5/hdf5_reader.h"
-
 namespace trismooth {
-
-/// Sites of `count` numbers, or rows of as many as `columns`, of a dataset of float32 or float64, from its `begin`-th
-/// number on, with `step` numbers from each to the next; nothing where they do not stand in the file as they are.
-std::optional<NumberSites> hdf5_sites(const Hdf5Reader& reader, const std::string& dataset, std::size_t begin,
-                                      std::size_t step, std::size_t count, std::vector<SiteColumn> columns);
 
 /// All values of datasets, by their paths, row by row.
 using Hdf5Values = std::map<std::string, std::vector<double>>;

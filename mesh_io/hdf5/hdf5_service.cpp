@@ -15,46 +15,13 @@
 
 #include "trismooth/mesh_io/bytes/saturating_product.h"
 #include "trismooth/mesh_io/hdf5/hdf5_handle.h"
+#include "trismooth/mesh_io/hdf5/hdf5_image.h"
 #include "trismooth/mesh_io/hdf5/hdf5_reader.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
 
 namespace {
-
-// HDF5 takes the bytes of a file through these, and copies none: each call gives the one place where they are.
-void* same_bytes(std::size_t, H5FD_file_image_op_t, void* bytes) {
-  return bytes;
-}
-void* copy_nothing(void* to, const void*, std::size_t, H5FD_file_image_op_t, void*) {
-  return to;
-}
-void* never_grow(void*, std::size_t, H5FD_file_image_op_t, void*) {
-  return nullptr;
-}
-herr_t keep_bytes(void*, H5FD_file_image_op_t, void*) {
-  return 0;
-}
-void* same_data(void* data) {
-  return data;
-}
-herr_t keep_data(void*) {
-  return 0;
-}
-
-Hdf5Handle open_bytes(std::string_view bytes) {
-  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-  // Only read: HDF5 asks for memory that could be written to.
-  void* const place = const_cast<char*>(bytes.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-  H5FD_file_image_callbacks_t callbacks{&same_bytes, &copy_nothing, &never_grow, &keep_bytes,
-                                        &same_data,  &keep_data,    place};
-  if (H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false) < 0 ||
-      H5Pset_file_image_callbacks(access.get(), &callbacks) < 0 ||
-      H5Pset_file_image(access.get(), place, bytes.size()) < 0) {
-    return {};
-  }
-  return {H5Fopen("trismooth bytes", H5F_ACC_RDONLY, access.get()), &H5Fclose};
-}
 
 /// One of the ordinary types, in either order of bytes: of others, which damaged files describe, HDF5's conversions
 /// make anything.
@@ -144,9 +111,9 @@ std::uint64_t chunk_values(hid_t properties, std::size_t rank) {
 
 class Hdf5Service {
  public:
-  explicit Hdf5Service(std::string_view bytes) : bytes_(bytes) {
+  explicit Hdf5Service(std::string_view bytes) : bytes_(bytes), image_(bytes) {
     if (!bytes.empty()) {
-      handle_ = open_bytes(bytes);
+      handle_ = image_.open();
     }
     if (!handle_.is_valid()) {
       throw Hdf5Refusal("is no whole HDF5 file" + hdf5_reason());
@@ -381,6 +348,7 @@ class Hdf5Service {
   std::string reference_to(const std::string& object) const;
 
   std::string_view bytes_;
+  Hdf5Image image_;
   Hdf5Handle handle_;
 };
 

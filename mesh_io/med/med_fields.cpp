@@ -148,7 +148,8 @@ class MedFieldsReader {
     });
     if (type == ScalarType::float32 || type == ScalarType::float64) {
       for (std::size_t i = 0; i < width; ++i) {
-        fields_.columns.push_back({dataset, i * nodes, nodes, {array_name, static_cast<std::uint8_t>(i)}});
+        fields_.columns.push_back(
+            hdf5_column(file_, dataset, i * nodes, nodes, {{array_name, static_cast<std::uint8_t>(i)}}));
       }
     }
     return true;

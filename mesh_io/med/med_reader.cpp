@@ -223,7 +223,8 @@ class MedReader {
       for (std::size_t i = 0; i < count; ++i) {
         document_.points[3 * i + axis] = values[axis * count + i];
       }
-      columns_.push_back({coordinates, axis * count, count, {.component = static_cast<std::uint8_t>(axis)}});
+      columns_.push_back(
+          hdf5_column(file_, coordinates, axis * count, count, {{.component = static_cast<std::uint8_t>(axis)}}));
     }
     const auto bad = std::ranges::find_if_not(values, [](double value) { return std::isfinite(value); });
     if (bad != values.end()) {

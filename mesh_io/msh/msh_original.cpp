@@ -96,8 +96,8 @@ class MshOriginal : public OriginalFile {
   }
 
   bool keeps_values_of(std::string_view point_array) const override {
-    return std::ranges::any_of(
-        layout_.data, [point_array](const NumberSites& sites) { return sites.columns.front().array == point_array; });
+    return std::ranges::any_of(layout_.data,
+                               [point_array](const NumberSites& sites) { return sites.has_values_of(point_array); });
   }
 
  private:

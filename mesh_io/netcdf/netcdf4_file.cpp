@@ -143,6 +143,10 @@ class ContentReader {
     variable.name = dataset.name;
     variable.dataset = dataset.path;
     variable.type = type_of(dataset.shape);
+    const std::optional<Hdf5Place> place = file_.place_of(dataset.path);
+    variable.is_packed = !place;
+    variable.begin = place ? place->begin : 0;
+    variable.is_big_endian = place && place->is_big_endian;
     const std::uint64_t bytes = saturating_product(dataset.shape.count(), size_of(variable.type));
     if (bytes > left_) {
       throw ReadError(file_.file(), "is damaged: the values of " + trismooth::quoted(variable.name) +

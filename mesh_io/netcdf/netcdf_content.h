@@ -80,9 +80,11 @@ struct NetcdfVariable {
   std::vector<std::size_t> shape;       ///< their lengths
   std::vector<NetcdfAttribute> attributes;
   bool has_records = false;       ///< the first dimension is the record dimension of a classic file
-  std::uint64_t begin = 0;        ///< classic files: byte offset of the first value
+  std::uint64_t begin = 0;        ///< byte offset of the first value, where they are not packed
   std::uint64_t record_step = 0;  ///< classic files: bytes from a record to the next
   std::string dataset;            ///< netCDF-4 files: the path of its values
+  bool is_big_endian = true;      ///< as all of classic files
+  bool is_packed = false;         ///< netCDF-4 files: the values do not stand in the file one after the other
 
   /// The text of the attribute of that name; empty where there is none, or no text.
   std::string_view text_of(std::string_view attribute) const {

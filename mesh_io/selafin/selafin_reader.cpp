@@ -147,12 +147,8 @@ class SelafinReader {
   }
 
   void add_sites(std::string_view record, ScalarType type, SiteColumn column) {
-    NumberSites sites;
-    sites.encoding = is_big_ ? NumberEncoding::big_endian : NumberEncoding::little_endian;
-    sites.type = type;
-    sites.columns = {std::move(column)};
-    sites.even = EvenSites{records_.offset_of(record), size_of(type), points_};
-    sites_.push_back(std::move(sites));
+    sites_.push_back(
+        binary_sites(binary_encoding(is_big_), type, records_.offset_of(record), points_, {std::move(column)}));
   }
 
   void read_axis(std::size_t axis) {

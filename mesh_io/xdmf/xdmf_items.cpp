@@ -373,6 +373,32 @@ std::vector<double> XdmfItems::read_coordinates(const XdmfItem& item, std::vecto
   return {values.begin(), values.end()};
 }
 
+void XdmfItems::keep_coordinates(const XdmfItem& item, std::vector<std::uint64_t> offsets,
+                                 std::vector<SiteColumn> columns, std::size_t first_point) {
+  const std::size_t count = static_cast<std::size_t>(item.count()) / columns.size();
+  if (item.place == XdmfItem::Place::text && count == 0) {
+    return;
+  }
+  if (item.place == XdmfItem::Place::text) {
+    NumberSites& sites = coordinates_.emplace_back();
+    sites.type = item.type.value();
+    sites.columns = std::move(columns);
+    sites.offsets = std::move(offsets);
+    sites.first_vertex = first_point;
+  } else if (item.place == XdmfItem::Place::binary) {
+    files_[item.file].coordinates.push_back(
+        binary_sites(binary_encoding(item.is_big_endian), item.type.value(), item.begin, count, std::move(columns)));
+    files_[item.file].coordinates.back().first_vertex = first_point;
+  } else {
+#ifdef TRISMOOTH_HAS_HDF5
+    Hdf5Column column =
+        hdf5_column(reader_of(item.file, item.line), item.dataset, 0, count, std::move(columns), first_point);
+    column.is_packed ? files_[item.file].packed.push_back(std::move(column))
+                     : files_[item.file].coordinates.push_back(std::move(column.numbers));
+#endif
+  }
+}
+
 DataArray XdmfItems::read_array(const XdmfItem& item, const std::string& name, std::size_t components) {
   auto found = arrays_.find(item.key);
   if (found == arrays_.end()) {

@@ -9,11 +9,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trismooth/mesh_io/bytes/file_bytes.h"
 #include "trismooth/mesh_io/bytes/file_workers.h"
 #include "trismooth/mesh_io/data_array.h"
+#include "trismooth/mesh_io/document/number_sites.h"
+#include "trismooth/mesh_io/hdf5/hdf5_original.h"
 #include "trismooth/mesh_io/xdmf/xdmf_paths.h"
 
 namespace trismooth {
@@ -25,6 +28,10 @@ struct XdmfHeavyFile {
   std::string name;
   std::filesystem::path path;
   std::optional<FileBytes> bytes{};  ///< absent: nothing of it was read
+  std::vector<NumberSites> coordinates{};
+  std::vector<Hdf5Column> packed{};  ///< coordinates that HDF5 has in another form
+
+  bool has_coordinates() const { return !coordinates.empty() || !packed.empty(); }
 };
 
 /// Where an XDMF file names a file beside it: the bytes [begin, end).
@@ -72,6 +79,9 @@ class XdmfItems {
   std::vector<T> read(const XdmfItem& item);
   /// All numbers of an item that is text, each as a coordinate that the file stores as `type`, and where they are.
   std::vector<double> read_coordinates(const XdmfItem& item, std::vector<std::uint64_t>& offsets);
+  /// Where the coordinates of an item are, with the document's points from `first_point` on: of text at `offsets`.
+  void keep_coordinates(const XdmfItem& item, std::vector<std::uint64_t> offsets, std::vector<SiteColumn> columns,
+                        std::size_t first_point);
   /// The numbers of an item in their own type; `components` divide their number. Those of one item are shared.
   DataArray read_array(const XdmfItem& item, const std::string& name, std::size_t components);
 
@@ -81,8 +91,9 @@ class XdmfItems {
   void find_file_names(const XmlElement& element);
 
   const std::vector<XdmfFileName>& file_names() const { return names_; }
-  /// The files, which are the caller's then.
+  /// The files with their coordinates, and those in the text, which are the caller's then.
   std::vector<XdmfHeavyFile> take_files();
+  std::vector<NumberSites> take_coordinates() { return std::move(coordinates_); }
 
  private:
   std::string_view content_of(const XmlElement& item) const;
@@ -99,6 +110,7 @@ class XdmfItems {
   std::string_view bytes_;
   FileWorkers workers_;
   XdmfPaths& paths_;
+  std::vector<NumberSites> coordinates_;  ///< in the text
   std::vector<XdmfHeavyFile> files_;
   std::vector<std::unique_ptr<Hdf5Reader>> readers_;  ///< of each file; null where there is none
   std::vector<std::uint64_t> left_;                   ///< bytes that may still be read of each file, unpacked

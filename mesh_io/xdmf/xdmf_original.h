@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -12,21 +11,13 @@
 
 namespace trismooth {
 
-/// Numbers of an XDMF file that are coordinates.
-struct XdmfCoordinates {
-  XdmfItem item;
-  std::vector<std::uint64_t> offsets{};    ///< in the text, of each number
-  std::size_t first_point = 0;             ///< of the document
-  std::vector<std::uint8_t> components{};  ///< of each column: x, y or z
-};
-
 /// What an XDMF file was, to be written back.
 struct XdmfSource {
   std::filesystem::path path;
   FileBytes bytes;
   std::vector<XdmfHeavyFile> files;
   std::vector<XdmfFileName> names;
-  std::vector<XdmfCoordinates> coordinates;
+  std::vector<NumberSites> coordinates;  ///< in the text
   std::size_t points = 0;
 };
 

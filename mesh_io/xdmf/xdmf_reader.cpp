@@ -52,8 +52,13 @@ struct Part {
   std::int32_t cell(std::size_t i) const { return cells.empty() ? static_cast<std::int32_t>(first + i) : cells[i]; }
 };
 
-/// The <DataItem>s of a geometry, with the components that the columns of each are.
-using GeometryItems = std::vector<XdmfCoordinates>;
+/// A <DataItem> of a geometry.
+struct GeometryItem {
+  XdmfItem item;
+  std::vector<std::uint64_t> offsets{};  ///< in the text, of each number
+  std::vector<SiteColumn> columns{};
+};
+using GeometryItems = std::vector<GeometryItem>;
 
 class XdmfReader {
  public:
@@ -105,15 +110,15 @@ class XdmfReader {
     for (std::size_t i = 0; i < found.size(); ++i) {
       for (std::size_t axis = 0; axis < axes; ++axis) {
         if (!is_split || axis == i) {
-          found[i].components.push_back(static_cast<std::uint8_t>(axis));
+          found[i].columns.push_back({.component = static_cast<std::uint8_t>(axis)});
         }
       }
       const XdmfItem& item = found[i].item;
       if (item.type != ScalarType::float32 && item.type != ScalarType::float64) {
         items_.fail(item.line, "coordinates are expected to be numbers of floating point with 4 or 8 bytes");
       }
-      if (item.count() % found[i].components.size() != 0 ||
-          item.count() / found[i].components.size() != found[0].item.count() / found[0].components.size()) {
+      if (item.count() % found[i].columns.size() != 0 ||
+          item.count() / found[i].columns.size() != found[0].item.count() / found[0].columns.size()) {
         items_.fail(item.line, std::to_string(item.count()) + " coordinates are not those of whole points");
       }
     }
@@ -122,13 +127,13 @@ class XdmfReader {
 
   static std::string key_of(const GeometryItems& items) {
     std::string key;
-    for (const XdmfCoordinates& one : items) {
-      key.append(one.item.key).append(" ").append(std::to_string(one.components.size())).append(" ");
+    for (const GeometryItem& one : items) {
+      key.append(one.item.key).append(" ").append(std::to_string(one.columns.size())).append(" ");
     }
     return key;
   }
 
-  std::vector<double> values_of(XdmfCoordinates& one) {
+  std::vector<double> values_of(GeometryItem& one) {
     std::vector<double> values = one.item.place == XdmfItem::Place::text
                                      ? items_.read_coordinates(one.item, one.offsets)
                                      : items_.read<double>(one.item);
@@ -137,6 +142,11 @@ class XdmfReader {
       items_.fail(one.item.line, "the coordinate " + std::to_string(wrong - values.begin() + 1) + " is not finite");
     }
     return values;
+  }
+
+  void keep(GeometryItem one, std::size_t first_point) {
+    (one.item.type == ScalarType::float32 ? has_float32_ : has_float64_) = true;
+    items_.keep_coordinates(one.item, std::move(one.offsets), std::move(one.columns), first_point);
   }
 
   std::size_t block_of(const XmlElement& geometry) {
@@ -150,22 +160,20 @@ class XdmfReader {
       return place->second;
     }
     Block block{.first = document_.point_count()};
-    block.count = static_cast<std::size_t>(items[0].item.count() / items[0].components.size());
-    for (XdmfCoordinates& one : items) {
+    block.count = static_cast<std::size_t>(items[0].item.count() / items[0].columns.size());
+    for (GeometryItem& one : items) {
       const std::vector<double> values = values_of(one);
       if (block.count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) - block.first) {
         throw ReadError(path_, "has more points than are read");
       }
       document_.points.resize(3 * (block.first + block.count));
-      one.first_point = block.first;
-      const std::size_t columns = one.components.size();
+      const std::size_t columns = one.columns.size();
       for (std::size_t i = 0; i < block.count; ++i) {
         for (std::size_t c = 0; c < columns; ++c) {
-          document_.points[3 * (block.first + i) + one.components[c]] = values[columns * i + c];
+          document_.points[3 * (block.first + i) + one.columns[c].component] = values[columns * i + c];
         }
       }
-      (one.item.type == ScalarType::float32 ? has_float32_ : has_float64_) = true;
-      coordinates_.push_back(std::move(one));
+      keep(std::move(one), block.first);
     }
     blocks_.push_back(block);
     return place->second;
@@ -375,19 +383,17 @@ class XdmfReader {
   void require_same_points(const XmlElement& geometry, GeometryItems items, std::size_t block_number) {
     const Block& block = blocks_[block_number];
     block_of_key_.emplace(key_of(items), block_number);
-    for (XdmfCoordinates& one : items) {
+    for (GeometryItem& one : items) {
       const std::vector<double> values = values_of(one);
-      const std::size_t columns = one.components.size();
+      const std::size_t columns = one.columns.size();
       bool same = values.size() == columns * block.count;
       for (std::size_t i = 0; same && i < values.size(); ++i) {
-        same = document_.points[3 * (block.first + i / columns) + one.components[i % columns]] == values[i];
+        same = document_.points[3 * (block.first + i / columns) + one.columns[i % columns].component] == values[i];
       }
       if (!same) {
         fail_moving(geometry);
       }
-      one.first_point = block.first;
-      (one.item.type == ScalarType::float32 ? has_float32_ : has_float64_) = true;
-      coordinates_.push_back(std::move(one));
+      keep(std::move(one), block.first);
     }
   }
 
@@ -415,7 +421,7 @@ class XdmfReader {
                       .bytes = {},
                       .files = {},
                       .names = items_.file_names(),
-                      .coordinates = std::move(coordinates_),
+                      .coordinates = items_.take_coordinates(),
                       .points = document_.point_count()};
     source.files = items_.take_files();
     for (const XdmfHeavyFile& file : source.files) {
@@ -479,7 +485,6 @@ class XdmfReader {
   std::map<std::pair<const XmlElement*, std::size_t>, std::size_t> part_of_element_;
   std::map<std::string, std::size_t, std::less<>> part_of_key_;
   std::map<std::pair<const XmlElement*, std::size_t>, bool> seen_;  ///< attributes that several grids include
-  std::vector<XdmfCoordinates> coordinates_;
   bool has_float32_ = false;
   bool has_float64_ = false;
   XdmfArrays point_arrays_;
