@@ -277,7 +277,8 @@ bool sort_apart(std::vector<NumberSites>& lists) {
     if (list.offset_of(0, 0) < end) {
       return false;
     }
-    end = list.offset_of(list.size() - 1, list.columns.size() - 1) + size_of(list.type);
+    end = list.offset_of(list.size() - 1, list.columns.size() - 1) +
+          (list.encoding == NumberEncoding::text ? 1 : size_of(list.type));
   }
   return true;
 }

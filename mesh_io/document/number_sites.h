@@ -115,9 +115,9 @@ struct PatchedSites {
   std::vector<ColumnValues> values;
 };
 
-/// Puts lists of a binary encoding, whose columns follow each other, in the order of their places, without those that
-/// are empty. False where they are not apart, each wholly behind the one before: in files that are damaged, or made to
-/// mislead.
+/// Puts lists, whose columns follow each other, in the order of their places, without those that are empty. False where
+/// they are not apart, each wholly behind the one before: in files in which several grids share numbers, and in those
+/// that are damaged, or made to mislead.
 bool sort_apart(std::vector<NumberSites>& lists);
 
 /// write_patched() of several lists of sites, each wholly behind the one before.

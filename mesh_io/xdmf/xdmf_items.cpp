@@ -376,9 +376,6 @@ std::vector<double> XdmfItems::read_coordinates(const XdmfItem& item, std::vecto
 void XdmfItems::keep_coordinates(const XdmfItem& item, std::vector<std::uint64_t> offsets,
                                  std::vector<SiteColumn> columns, std::size_t first_point) {
   const std::size_t count = static_cast<std::size_t>(item.count()) / columns.size();
-  if (item.place == XdmfItem::Place::text && count == 0) {
-    return;
-  }
   if (item.place == XdmfItem::Place::text) {
     NumberSites& sites = coordinates_.emplace_back();
     sites.type = item.type.value();

@@ -29,9 +29,7 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 
 class XdmfOriginal : public OriginalFile {
  public:
-  explicit XdmfOriginal(XdmfSource source) : source_(std::move(source)) {
-    std::ranges::sort(source_.coordinates, {}, [](const NumberSites& sites) { return sites.offset_of(0, 0); });
-  }
+  explicit XdmfOriginal(XdmfSource source) : source_(std::move(source)) {}
 
   std::vector<std::filesystem::path> other_files(const std::filesystem::path& path) const override {
     const std::vector<std::string> names = names_beside(path);
@@ -94,6 +92,14 @@ class XdmfOriginal : public OriginalFile {
     return names;
   }
 
+  /// In the order of their places.
+  static std::vector<NumberSites> apart(std::vector<NumberSites> sites, const std::filesystem::path& path) {
+    if (!sort_apart(sites)) {
+      throw WriteError(path, "of the file that was read, coordinates of several grids overlap, which are not changed");
+    }
+    return sites;
+  }
+
   void write_text(const std::filesystem::path& path, const std::vector<std::string>& names,
                   const MeshDocument& document, Workers& workers) const {
     std::string renamed;
@@ -110,7 +116,7 @@ class XdmfOriginal : public OriginalFile {
       copied = place.end;
       shifts.emplace_back(copied, static_cast<std::ptrdiff_t>(renamed.size()) - static_cast<std::ptrdiff_t>(copied));
     }
-    std::vector<NumberSites> sites = source_.coordinates;
+    std::vector<NumberSites> sites = apart(source_.coordinates, path);
     for (NumberSites& list : sites) {
       const auto behind =
           std::ranges::upper_bound(shifts, list.offset_of(0, 0), {}, [](const auto& shift) { return shift.first; });
@@ -137,10 +143,7 @@ class XdmfOriginal : public OriginalFile {
       }
       return;
     }
-    std::vector<NumberSites> sites = heavy.coordinates;
-    if (!sort_apart(sites)) {
-      throw WriteError(place, "of the file that was read, coordinates of several grids overlap, which are not changed");
-    }
+    const std::vector<NumberSites> sites = apart(heavy.coordinates, place);
     write_sites(place, *heavy.bytes, sites, document, workers);
 #ifdef TRISMOOTH_HAS_HDF5
     if (!heavy.packed.empty()) {

@@ -179,6 +179,18 @@ TEST_CASE("XDMF: text is written back byte by byte but for coordinates that diff
   }
 }
 
+TEST_CASE("XDMF: grids that share the numbers of one axis are read, and refused where they are to be written back") {
+  const auto split = [](const std::string& x) {
+    return "<Geometry GeometryType=\"X_Y\">" + x + "<DataItem Dimensions=\"4\">0 0 1 1</DataItem></Geometry>";
+  };
+  const std::string first = grid(two_triangles + split("<DataItem Dimensions=\"4\">0 1 1 0</DataItem>"));
+  const std::string second =
+      grid(two_triangles + split("<DataItem Reference=\"/Xdmf/Domain/Grid/Grid[1]/Geometry/DataItem[1]\"/>"));
+  const MeshDocument document = xdmf.read(file(grid(first + second, "GridType=\"Collection\"")));
+  CHECK(document.points == xdmf.read(file(grid(first + first, "GridType=\"Collection\""))).points);
+  CHECK(says(message_of<WriteError>([&] { xdmf.written(document); }), "coordinates of several grids overlap"));
+}
+
 TEST_CASE("XDMF: text that tells no precision keeps all digits of what is written back") {
   const std::string text = file(
       grid(two_triangles + "<Geometry GeometryType=\"XY\"><DataItem Dimensions=\"4 2\">0.1234567890123456 0 1 0 1 1 "
