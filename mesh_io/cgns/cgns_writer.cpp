@@ -355,12 +355,8 @@ std::vector<std::string> lost_in_cgns(const MeshDocument& document) {
       describe_lost_cells("CGNS", "points, lines, faces and solids", types, document.cells);
   const CgnsArrays of_points = plan_cgns_arrays(document.point_arrays, {});
   const CgnsArrays of_cells = plan_cgns_arrays(document.cell_arrays, lists.arrays);
-  MeshDocument others;
-  others.field_arrays = document.field_arrays;
-  std::ranges::move(describe_lost_arrays("CGNS", others), std::back_inserter(sentences));
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
-                       [&lists](const DataArray& array) { return !lists.arrays.has(array.name); });
-  std::ranges::move(describe_lost_names("CGNS", others), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_field_arrays("CGNS", document), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_names("CGNS", document, lists.arrays), std::back_inserter(sentences));
   if (const std::size_t cells = count_cells_below(document.cells); cells > 0 && !of_cells.components.empty()) {
     sentences.push_back("CGNS has values of the cells of the highest dimension: those of cell arrays at " +
                         counted(cells, "other cell are", "other cells are") + " not written");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/list_text.h"
@@ -45,14 +46,21 @@ std::vector<std::string> describe_lost_arrays(std::string_view format, const Mes
           arrays_but([&held](const std::string& name) { return held.point == name; }, document.point_arrays));
   tell_of("cell arrays",
           arrays_but([&held](const std::string& name) { return held.cell.has(name); }, document.cell_arrays));
-  tell_of("field arrays", arrays_but([](const std::string&) { return false; }, document.field_arrays));
+  std::ranges::move(describe_lost_field_arrays(format, document), std::back_inserter(sentences));
   return sentences;
 }
 
-std::vector<std::string> describe_lost_names(std::string_view format, const MeshDocument& document) {
+std::vector<std::string> describe_lost_field_arrays(std::string_view format, const MeshDocument& document) {
+  std::vector<std::string> sentences;
+  describe(sentences, format, "field arrays", document.field_arrays, shown_name<DataArray>);
+  return sentences;
+}
+
+std::vector<std::string> describe_lost_names(std::string_view format, const MeshDocument& document,
+                                             const GroupArrays& held) {
   std::string arrays;
   for (const DataArray& array : document.cell_arrays) {
-    if (array.description != nullptr && !array.description->value_names.empty()) {
+    if (!held.has(array.name) && array.description != nullptr && !array.description->value_names.empty()) {
       add_to_list(arrays, array.name);
     }
   }

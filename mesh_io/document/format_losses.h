@@ -36,9 +36,13 @@ struct HeldArrays {
 std::vector<std::string> describe_lost_arrays(std::string_view format, const MeshDocument& document,
                                               const HeldArrays& held = {});
 
+/// The last of them, of formats that hold point and cell arrays.
+std::vector<std::string> describe_lost_field_arrays(std::string_view format, const MeshDocument& document);
+
 /// The sentence for the names that values of the document's cell arrays have, at most one: "OFF holds no names of
-/// values: those of region are not written".
-std::vector<std::string> describe_lost_names(std::string_view format, const MeshDocument& document);
+/// values: those of region are not written". `held`: arrays whose names become those of groups.
+std::vector<std::string> describe_lost_names(std::string_view format, const MeshDocument& document,
+                                             const GroupArrays& held = {});
 
 /// One sentence for the document's sets of points and one for those of cells: "OFF holds no sets of points: inlet,
 /// outlet are not written".

@@ -280,9 +280,7 @@ std::vector<std::string> lost_in_exodus(const MeshDocument& document) {
       [](std::uint8_t type) { return exodus_shape_of_cell(type).nodes > 0 || type == cell_type::polygon; });
   std::vector<std::string> sentences =
       describe_lost_cells("Exodus II", "points, lines, faces and solids", types, document.cells);
-  MeshDocument fields;
-  fields.field_arrays = document.field_arrays;
-  std::ranges::move(describe_lost_arrays("Exodus II", fields), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_field_arrays("Exodus II", document), std::back_inserter(sentences));
   std::string whole;
   for (const auto* arrays : {&document.point_arrays, &document.cell_arrays}) {
     for (const DataArray& array : *arrays) {

@@ -292,12 +292,8 @@ std::vector<std::string> lost_in_med(const MeshDocument& document) {
   const MedFamilies families = plan_med_families(document);
   std::vector<std::string> sentences =
       describe_lost_cells("MED", "points, lines, faces and solids", types, document.cells);
-  MeshDocument others;
-  others.field_arrays = document.field_arrays;
-  std::ranges::move(describe_lost_arrays("MED", others), std::back_inserter(sentences));
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
-                       [&families](const DataArray& array) { return !families.arrays.has(array.name); });
-  std::ranges::move(describe_lost_names("MED", others), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_field_arrays("MED", document), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_names("MED", document, families.arrays), std::back_inserter(sentences));
   if (const MedFieldPlan plan = plan_med_fields(document, families.arrays); !plan.renamed.empty()) {
     sentences.push_back("MED has names of fields of " + std::to_string(med_field_name_size) +
                         " characters at most, each once and without slashes: changed are " + list_text(plan.renamed));

@@ -162,14 +162,6 @@ void write_mfem(const std::filesystem::path& path, const MeshDocument& document,
 std::vector<std::string> lost_in_mfem(const MeshDocument& document) {
   std::vector<std::string> sentences =
       describe_lost_cells("MFEM", "lines, triangles and quadrilaterals", written_types, document.cells);
-  MeshDocument others;
-  const GroupArrays groups = find_cell_groups(document).arrays;
-  others.point_arrays = document.point_arrays;
-  std::ranges::copy_if(document.cell_arrays, std::back_inserter(others.cell_arrays),
-                       [&groups](const DataArray& array) { return !groups.has(array.name); });
-  others.field_arrays = document.field_arrays;
-  others.point_sets = document.point_sets;
-  others.cell_sets = document.cell_sets;
   const auto is_line = [](std::uint8_t type) { return type == cell_type::line; };
   const auto& types = document.cells.types;
   const auto last_face = std::find_if(types.rbegin(), types.rend(), [](std::uint8_t type) {
@@ -178,8 +170,9 @@ std::vector<std::string> lost_in_mfem(const MeshDocument& document) {
   if (std::find_if(last_face, types.rend(), is_line) != types.rend()) {
     sentences.emplace_back("MFEM lists lines apart from faces: the cells are written in another order");
   }
-  std::ranges::move(describe_lost_arrays("MFEM", others), std::back_inserter(sentences));
-  std::ranges::move(describe_lost_sets("MFEM", others), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_arrays("MFEM", document, {.cell = find_cell_groups(document).arrays}),
+                    std::back_inserter(sentences));
+  std::ranges::move(describe_lost_sets("MFEM", document), std::back_inserter(sentences));
   return sentences;
 }
 

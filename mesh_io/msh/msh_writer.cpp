@@ -291,9 +291,8 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
                         " without a group are written in a further one, " + std::to_string(rest.tag));
   }
   MeshDocument others;
-  others.field_arrays = document.field_arrays;
   others.point_sets = document.point_sets;
-  std::ranges::move(describe_lost_arrays("MSH", others), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_field_arrays("MSH", document), std::back_inserter(sentences));
   std::ranges::move(describe_lost_sets("MSH", others), std::back_inserter(sentences));
   return sentences;
 }

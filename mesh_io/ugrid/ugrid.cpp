@@ -145,9 +145,7 @@ std::vector<std::string> lost_in_ugrid(const MeshDocument& document) {
   if (!arrays.empty()) {
     sentences.push_back("UGRID gets arrays of real numbers, one a point or face: not written are " + arrays);
   }
-  MeshDocument fields;
-  fields.field_arrays = document.field_arrays;
-  std::ranges::move(describe_lost_arrays("UGRID", fields), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_field_arrays("UGRID", document), std::back_inserter(sentences));
   std::ranges::move(describe_lost_sets("UGRID", document), std::back_inserter(sentences));
   std::ranges::move(describe_lost_z("UGRID", document), std::back_inserter(sentences));
   return sentences;

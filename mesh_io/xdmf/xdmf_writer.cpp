@@ -288,9 +288,7 @@ void write_xdmf(const std::filesystem::path& path, const MeshDocument& document,
 std::vector<std::string> lost_in_xdmf(const MeshDocument& document) {
   std::vector<std::string> sentences =
       describe_lost_cells("XDMF", "cells of other types", written_types(), document.cells);
-  MeshDocument fields;
-  fields.field_arrays = document.field_arrays;
-  std::ranges::move(describe_lost_arrays("XDMF", fields), std::back_inserter(sentences));
+  std::ranges::move(describe_lost_field_arrays("XDMF", document), std::back_inserter(sentences));
   return sentences;
 }
 
