@@ -152,15 +152,6 @@ double TextScanner::next_double(std::string_view what) {
   return *value;
 }
 
-float TextScanner::next_float(std::string_view what) {
-  const std::string_view token = next_token(what);
-  const std::optional<float> value = parse_number<float>(token);
-  if (!value || !std::isfinite(*value)) {
-    fail("expected " + std::string(what) + " (a finite float32 number), got " + quoted(token));
-  }
-  return *value;
-}
-
 std::int64_t TextScanner::next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest) {
   const std::string_view token = next_token(what);
   const std::optional<std::int64_t> value = parse_integer(token);

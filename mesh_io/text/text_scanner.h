@@ -41,8 +41,6 @@ class TextScanner {
   /// The next token as a finite number (digits, optional sign, fraction, exponent); fails on anything else, on NaN,
   /// on an infinity and on a value beyond the range. Values below the range are 0.
   double next_double(std::string_view what);
-  /// next_double() rounded to float32 as a reader of that type would.
-  float next_float(std::string_view what);
   /// The next token as a whole number within [lowest, highest]; fails on anything else.
   std::int64_t next_integer(std::string_view what, std::int64_t lowest, std::int64_t highest);
 
