@@ -280,8 +280,11 @@ std::string gate_value_text(const GateOutcome& outcome) {
 }
 
 std::string gate_failure(const GateOutcome& outcome) {
+  const bool is_of_followers = outcome.gate.name == crossings || outcome.gate.name == overlaps;
   return fmt::format("gate failed: {}, is {}{}", gate_text(outcome.gate), gate_value_text(outcome),
-                     std::isnan(outcome.value) ? " for this mesh" : "");
+                     !std::isnan(outcome.value) ? ""
+                     : is_of_followers          ? " here: trismooth deform alone counts them"
+                                                : " for this mesh: none of its elements has it; leave the gate out");
 }
 
 }  // namespace trismooth

@@ -70,7 +70,7 @@ struct PipelineOptions {
   std::optional<FileFormat> format;             ///< of `-`, and of files whose extension names none
   SmoothingOptions smoothing;
   std::vector<std::string> region_arrays;          ///< cell arrays; empty: those that give regions
-  std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one
+  std::optional<std::string> fixed_array;          ///< absent: the point array "fixed", where there is one; or "none"
   std::vector<std::string> fixed_sets;             ///< point sets of the file; empty: all that are not of an area
   std::optional<std::filesystem::path> fixed_ids;  ///< a file of vertex numbers, rows of the file from 0
   bool fixed_ids_are_labels = false;               ///< those are the numbers that the mesh's own file gives its points

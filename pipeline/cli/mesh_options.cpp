@@ -23,9 +23,10 @@ void add_hold_options(CLI::App& command, MeshRunSettings& settings) {
       "[arrays known by their name, as region or gmsh:physical, and those that look like regions]",
       [&options](const std::string& text) { options.region_arrays.push_back(text); }, repeatable)
       ->group(option_group::constraints);
-  add_parsed_option(command, "--fixed-array", "NAME",
-                    "Point array; where it is not 0, the vertex is fixed [fixed, if the file has it]",
-                    [&options](const std::string& text) { options.fixed_array = text; })
+  add_parsed_option(
+      command, "--fixed-array", "NAME",
+      "Point array; where it is not 0, the vertex is fixed. none: no array fixes any [fixed, if the file has it]",
+      [&options](const std::string& text) { options.fixed_array = text; })
       ->group(option_group::constraints);
   add_parsed_option(
       command, "--fixed-set", "NAME",
@@ -104,7 +105,8 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
   add_parsed_option(
       command, "--require", "'NAME>=X'",
       "Exit with 1 if the result misses this. Compares by >= <= > < ==; names: min_angle, max_angle, inverted, "
-      "degenerate, invalid_quadratic, triangles, quadrilaterals, size_ratio, and min_, mean_, max_, stddev_ or "
+      "degenerate, invalid_quadratic, triangles, quadrilaterals, size_ratio, of deform crossings and overlaps, and "
+      "min_, mean_, max_, stddev_ or "
       "acceptable_ before a metric: min_shape; 'triangle.' or 'quadrilateral.' before a name takes those alone. "
       "Repeatable",
       [&settings](const std::string& text) { settings.gates.push_back(parse_gate(text)); }, repeatable)
@@ -126,7 +128,8 @@ void add_result_options(CLI::App& command, MeshRunSettings& settings) {
 void add_annotations_options(CLI::App& command, MeshRunSettings& settings) {
   command
       .add_flag("--annotate", settings.pipeline.annotate,
-                "Add arrays to VTK or MSH output, or to PLY made of another format, in place of earlier ones: "
+                "Add arrays to VTK or MSH output, or to PLY, XDMF, Exodus II, MED or CGNS made of another format, in "
+                "place of earlier ones: "
                 "trismooth:shape, trismooth:shape_before (cells), "
                 "trismooth:fixed, trismooth:displacement (points)")
       ->group(option_group::results);

@@ -13,11 +13,15 @@ const DataArray* choose_fixed_array(std::span<const DataArray> arrays, const std
 }
 
 FixedArray find_fixed_array(const MeshDocument& document, const std::optional<std::string>& name) {
+  if (name == no_fixed_array) {
+    return {};
+  }
   const DataArray* const array = choose_fixed_array(document.point_arrays, name);
   if (array == nullptr) {
     if (name) {
       throw std::invalid_argument("the file has no point array '" + *name +
-                                  "' to take fixed vertices from; it has: " + array_names(document.point_arrays));
+                                  "' to take fixed vertices from; it has: " + array_names(document.point_arrays) +
+                                  "; " + std::string(no_fixed_array) + " holds nothing by an array");
     }
     return {};
   }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trismooth/mesh_io/mesh_document.h"
@@ -23,8 +24,12 @@ struct FixedArray {
 /// not taken for the user's word. Complexity: linear in the arrays.
 const DataArray* choose_fixed_array(std::span<const DataArray> arrays, const std::optional<std::string>& name);
 
-/// What the one that choose_fixed_array() names holds, if there is one. Throws std::invalid_argument where `name` is
-/// given and the document has no such array, naming those it has. Complexity: linear.
+/// The name that says that no array holds vertices.
+inline constexpr std::string_view no_fixed_array = "none";
+
+/// What the one that choose_fixed_array() names holds, if there is one; nothing where the name is no_fixed_array.
+/// Throws std::invalid_argument where another `name` is given and the document has no such array, naming those it has.
+/// Complexity: linear.
 FixedArray find_fixed_array(const MeshDocument& document, const std::optional<std::string>& name);
 
 }  // namespace trismooth

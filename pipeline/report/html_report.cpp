@@ -318,19 +318,30 @@ std::string worst_tables(const PipelineResult& result) {
 }
 
 std::string steps_table(const DeformationResult& deformation) {
-  std::string html =
-      "<table>\n<thead><tr><th>step</th><th>displacements</th><th>smallest shape</th><th>seen from the input</th>"
-      "<th>on average</th><th>not valid</th><th>crossings</th><th>overlaps</th><th>largest "
-      "displacement</th></tr></thead>\n<tbody>\n";
+  static constexpr std::array<const char*, 8> titles{"displacements", "smallest shape",      "seen from the input",
+                                                     "on average",    "not valid",           "crossings",
+                                                     "overlaps",      "largest displacement"};
+  std::string html = "<table class=\"stack wrap\">\n<thead><tr><th>step</th>";
+  for (const char* const title : titles) {
+    html += fmt::format("<th>{}</th>", title);
+  }
+  html += "</tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < deformation.steps.size(); ++i) {
     const DeformedStep& step = deformation.steps[i];
-    html += fmt::format(
-        "<tr><td>{}{}</td><td>{}</td><td>{:.3g}</td><td>{:.3g}</td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td>"
-        "<td>{:.3g}</td></tr>\n",
-        i + 1, i == deformation.worst && deformation.steps.size() > 1 ? ", the worst" : "",
-        escape_html(step.displacements.string()), step.quality[Metric::shape].min, step.min_relative_shape,
-        step.mean_relative_shape, count_text(std::max(step.invalid(), step.invalid_quadratic())),
-        count_text(step.crossings), count_text(step.overlaps), step.largest_displacement);
+    const std::array<std::string, titles.size()> cells{escape_html(step.displacements.string()),
+                                                       fmt::format("{:.3g}", step.quality[Metric::shape].min),
+                                                       fmt::format("{:.3g}", step.min_relative_shape),
+                                                       fmt::format("{:.3g}", step.mean_relative_shape),
+                                                       count_text(std::max(step.invalid(), step.invalid_quadratic())),
+                                                       count_text(step.crossings),
+                                                       count_text(step.overlaps),
+                                                       fmt::format("{:.3g}", step.largest_displacement)};
+    html += fmt::format("<tr><td>{}{}</td>", i + 1,
+                        i == deformation.worst && deformation.steps.size() > 1 ? ", the worst" : "");
+    for (std::size_t column = 0; column < cells.size(); ++column) {
+      html += html_cell(cells[column], "", titles[column]);
+    }
+    html += "</tr>\n";
   }
   return html + "</tbody>\n</table>\n";
 }

@@ -334,7 +334,8 @@ std::string_view why_nothing_moved(const PipelineResult& result) {
     return "nothing to smooth: the mesh has no triangles";
   }
   if (result.input.free_vertices == 0 && result.smoothing->sliding.value_or(SlidingResult{}).vertices == 0) {
-    return "nothing to smooth: every vertex is fixed";
+    return "nothing to smooth: every vertex is fixed, for the reasons above; --fixed-array none, --fixed-set none and "
+           "--region-array none free those that the file holds, --slide straight lets those on lines slide";
   }
   if (result.smoothing->sweeps == 0 && result.smoothing->stop_reason == StopReason::quality_target) {
     return "nothing moved: the mesh has the target quality already";

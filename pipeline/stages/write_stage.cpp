@@ -103,11 +103,10 @@ WrittenAside write_output(RunState& run, const std::filesystem::path& path, bool
   const bool annotates = annotate && takes_arrays;
   if (annotate && !annotates) {
     const std::string which = target == FileFormat::msh ? " of version 1, or with tags above 2147483647," : "";
-    run.note("--annotate has no effect: " +
-             (has_arrays(target) ? std::string(title_of(target)) + " files" + which +
-                                       " that were read are written back with nothing added"
-                                 : "." + std::string(to_string(target)) + " holds no arrays") +
-             "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
+    run.note(
+        "--annotate has no effect: " + std::string(title_of(target)) + " files" +
+        (has_arrays(target) ? which + " that were read are written back with nothing added" : " take no annotations") +
+        "; write " + (is_available(FileFormat::vtu) ? ".vtu" : ".vtk") + " to get them");
   }
   if (!annotates && !dropped.empty()) {
     run.note(note_of_dropped_annotations(dropped));

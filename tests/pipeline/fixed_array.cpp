@@ -56,6 +56,15 @@ TEST_CASE("a missing point array fixes nothing, unless it is named") {
   const std::string message = message_of<std::invalid_argument>([&] { find_fixed_array(document, "fixed"); });
   CHECK(message.find("'fixed'") != std::string::npos);
   CHECK(message.find("it has: depth") != std::string::npos);
+  CHECK(message.find("none holds nothing by an array") != std::string::npos);
+}
+
+TEST_CASE("no array fixes vertices where none is asked to") {
+  MeshDocument document = six_points();
+  document.point_arrays.push_back(make_data_array("fixed", 1, std::vector<float>(6, 1)));
+  CHECK(find_fixed_array(document, std::nullopt).vertices == 6);
+  CHECK(find_fixed_array(document, "none").flags.empty());
+  CHECK(find_fixed_array(document, "none").array.empty());
 }
 
 }  // namespace trismooth::fixed_array_test
