@@ -8,12 +8,12 @@
 /// Why a vertex is held fixed: bits of one byte a vertex.
 namespace trismooth::hold {
 
-inline constexpr std::uint8_t boundary = 1;      ///< on an edge with one triangle
-inline constexpr std::uint8_t non_manifold = 2;  ///< on an edge with three triangles or more, or with copies of one
-inline constexpr std::uint8_t bow_tie = 4;       ///< its triangles form more than one fan
-inline constexpr std::uint8_t isolated = 8;      ///< of no triangle
+inline constexpr std::uint8_t boundary = 1;      ///< on an edge with one element
+inline constexpr std::uint8_t non_manifold = 2;  ///< on an edge with three elements or more, or with copies of one
+inline constexpr std::uint8_t bow_tie = 4;       ///< its elements form more than one fan
+inline constexpr std::uint8_t isolated = 8;      ///< of no element
 inline constexpr std::uint8_t interface = 16;    ///< on an edge between two regions
-inline constexpr std::uint8_t other_cell = 32;   ///< of a cell that is not a triangle
+inline constexpr std::uint8_t other_cell = 32;   ///< of a cell that is no element
 inline constexpr std::uint8_t named = 64;        ///< named by the user, or kept for a layer: see LayersResult
 inline constexpr std::uint8_t line = 128;        ///< of a line or a link that the caller names
 

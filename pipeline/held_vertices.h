@@ -13,11 +13,11 @@ class Workers;
 
 /// How many vertices are held, by reason. A vertex with several reasons counts for each of them.
 struct HeldVertices {
-  std::int64_t boundary = 0;      ///< on an edge with one triangle
+  std::int64_t boundary = 0;      ///< on an edge with one element
   std::int64_t interface = 0;     ///< on an edge between two regions
-  std::int64_t non_manifold = 0;  ///< on an edge with three triangles or more
-  std::int64_t bow_tie = 0;       ///< where triangles meet in a point only; those of non_manifold do not count again
-  std::int64_t other_cells = 0;   ///< of a cell that is not a triangle, or linked with another vertex
+  std::int64_t non_manifold = 0;  ///< on an edge with three elements or more
+  std::int64_t bow_tie = 0;       ///< where elements meet in a point only; those of non_manifold do not count again
+  std::int64_t other_cells = 0;   ///< of a cell that is no element, or linked with another vertex
   std::int64_t unused = 0;        ///< of no cell
   std::int64_t named = 0;         ///< by an array, by a set of the file or by a file of numbers
   std::int64_t layers = 0;        ///< of layers that are flat on purpose, and held by nothing else

@@ -15,8 +15,8 @@ namespace trismooth {
 struct Constraints {
   ArrayView<std::uint8_t> fixed{};        ///< one flag a vertex; not zero: fixed
   ArrayView<std::int32_t> fixed_ids{};    ///< vertex numbers from 0, in any order, also more than once
-  ArrayView<std::uint8_t> other_cells{};  ///< one flag a vertex; not zero: used by a cell that is not a triangle, fixed
-  ArrayView<std::int32_t> regions{};      ///< one number a triangle; ends of edges between two regions are fixed
+  ArrayView<std::uint8_t> other_cells{};  ///< one flag a vertex; not zero: used by a cell that is no element, fixed
+  ArrayView<std::int32_t> regions{};      ///< one number an element; ends of edges between two regions are fixed
   Sliding slide{};                        ///< which of those that boundaries and interfaces hold move along them
 };
 

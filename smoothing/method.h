@@ -12,10 +12,10 @@ namespace trismooth {
 
 /// Where a vertex is moved to, and whether. What computes it is in smoothing/methods, a header for each.
 enum class Method : std::uint8_t {
-  smart,       ///< to the mean of its neighbours, if the worst of its triangles gets better (the paper)
+  smart,       ///< to the mean of its neighbours, if the worst of its elements gets better (the paper)
   laplacian,   ///< to the mean of its neighbours
   weighted,    ///< towards the mean of its neighbours weighted by edge length, as smart does
-  mean_ratio,  ///< where an energy of its triangles' shapes and sizes gets smaller, by Newton's method
+  mean_ratio,  ///< where an energy of its elements' shapes and sizes gets smaller, by Newton's method
 };
 
 template <>
