@@ -8,7 +8,9 @@ Exits with 77 where there is no browser, which ctest shows as skipped.
 import json
 import math
 import re
+import shutil
 import sys
+import tempfile
 import zlib
 
 import browser
@@ -53,13 +55,17 @@ def numbers(colour):
 
 class Page(tool.ToolTest):
 
-    def setUp(self):
-        super().setUp()
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="trismooth-")
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
         # Lines need two sizes, the paper's own too.
-        self.run_tool("bench", "--sizes", "200,1K,5K", "--runs", "2", "--report", "bench.html", "--report",
-                      "bench.json")
-        self.browser = browser.Browser()
-        self.addCleanup(self.browser.close)
+        cls().run_tool("bench", "--sizes", "200,1K,5K", "--runs", "2", "--report", "bench.html", "--report", "bench.json")
+        cls.browser = browser.Browser()
+        cls.addClassCleanup(cls.browser.close)
+
+    def setUp(self):
+        """All have the folder and the window of the class."""
 
     def page_with(self, addition):
         """A copy of the page with this at its end."""
