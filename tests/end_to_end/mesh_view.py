@@ -7,13 +7,12 @@ Exits with 77 where there is no browser, which ctest shows as skipped.
 import base64
 import json
 import pathlib
-import struct
 import sys
 import time
-import zlib
 
 import browser
 import mesh_reader
+import png
 import tool
 
 COUNT = 9  # squares along a side
@@ -52,39 +51,6 @@ def squares(place=lambda x, y: (x, y)):
 def shaken(x, y):
     inside = 0 < x < COUNT and 0 < y < COUNT and x != COUNT // 2
     return (x + inside * 0.3 * ((7 * x + 3 * y) % 5 - 2) / 2, y + inside * 0.3 * ((3 * x + 11 * y) % 7 - 3) / 3)
-
-
-def pixels(png):
-    """Rows of (red, green, blue) of a PNG as Chromium makes it: 8 bits, RGB or RGBA, not interlaced."""
-    at, data = 8, b""
-    while at < len(png):
-        size, kind = struct.unpack(">I4s", png[at:at + 8])
-        if kind == b"IHDR":
-            width, height, _, colour = struct.unpack(">IIBB", png[at + 8:at + 18])
-        elif kind == b"IDAT":
-            data += png[at + 8:at + 8 + size]
-        at += size + 12
-    channels = {2: 3, 6: 4}[colour]
-    raw = zlib.decompress(data)
-    rows, last = [], bytearray(width * channels)
-    for y in range(height):
-        begin = y * (width * channels + 1)
-        filtered, line = raw[begin], bytearray(raw[begin + 1:begin + 1 + width * channels])
-        for i in range(len(line)):
-            left = line[i - channels] if i >= channels else 0
-            up, corner = last[i], last[i - channels] if i >= channels else 0
-            if filtered == 1:
-                line[i] = (line[i] + left) & 255
-            elif filtered == 2:
-                line[i] = (line[i] + up) & 255
-            elif filtered == 3:
-                line[i] = (line[i] + (left + up) // 2) & 255
-            elif filtered == 4:
-                nearest = min((abs(up - corner), 0, left), (abs(left - corner), 1, up), (abs(left + up - 2 * corner), 2, corner))
-                line[i] = (line[i] + nearest[2]) & 255
-        rows.append([tuple(line[i:i + 3]) for i in range(0, len(line), channels)])
-        last = line
-    return rows
 
 
 class View(tool.ToolTest):
@@ -145,7 +111,7 @@ class View(tool.ToolTest):
         # (Of the window as it is: browser.screenshot() shows a window as high as the page.)
         shot = self.browser.ask("Page.captureScreenshot", format="png", clip={
             "x": round(left), "y": round(top + self.browser.evaluate("scrollY")), "width": 1, "height": 1, "scale": 1})
-        return pixels(base64.b64decode(shot["data"]))[0][0]
+        return png.Picture(base64.b64decode(shot["data"])).colour(0, 0)
 
     def test_a_click_tells_of_the_element_under_it_and_a_row_leads_to_its_element(self):
         self.run_tool("smooth", "in.msh", "out.msh", "--report", "out.html", "--report", "out.json", "--max-sweeps", "0")
@@ -287,7 +253,7 @@ class View(tool.ToolTest):
         self.run_tool("smooth", "in.msh", "out.msh", "--report", "out.html")
         self.browser.ask("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark"}])
         self.show("out.html", width=390)
-        self.assertLess(sum(pixels(self.browser.screenshot(2, 2, 1, 1))[0][0]), 150)
+        self.assertLess(sum(png.Picture(self.browser.screenshot(2, 2, 1, 1)).colour(0, 0)), 150)
         self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 390)
         self.browser.ask("Emulation.setEmulatedMedia", media="print", features=[])
         shown = "getComputedStyle(document.querySelector('.{}')).display"

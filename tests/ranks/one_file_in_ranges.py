@@ -11,7 +11,7 @@ import pieces
 import ranks_tool
 import raw_msh
 import raw_vtu
-from same_as_one_file import without_run
+from ranks_tool import without_run
 
 
 class OneFileInRanges(ranks_tool.RanksTest):

@@ -10,17 +10,7 @@ import subprocess
 import pieces
 import ranks_tool
 import raw_vtu
-
-# What a run may differ in.
-RUN_ALONE = {"other_outputs", "timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "topology", "command", "date"}
-
-
-def without_run(report):
-    if isinstance(report, dict):
-        return {key: without_run(value) for key, value in report.items() if key not in RUN_ALONE}
-    if isinstance(report, list):
-        return [without_run(value) for value in report]
-    return report
+from ranks_tool import without_run
 
 
 def has_gpu():

@@ -10,19 +10,13 @@ import ranks_tool
 import tool
 
 RANKS = (0, 1, 2, 3, 5) if tool.thorough else (1, 3)
-# What a run may differ in, and what it says of who has the whole mesh.
-RUN_ALONE = {"other_outputs", "timings_ms", "peak_memory_bytes", "path", "output", "threads", "device", "command", "date", "notes",
-             "backend_note", "topology", "arguments"}
 # Some of those that hold a plain mesh of triangles.
 FORMATS = ("off", "vtp", "msh", "off.gz")
 
 
 def without_run(report):
-    if isinstance(report, dict):
-        return {key: without_run(value) for key, value in report.items() if key not in RUN_ALONE}
-    if isinstance(report, list):
-        return [without_run(value) for value in report]
-    return report
+    """Without what it says of who has the whole mesh, too."""
+    return ranks_tool.without_run(report, {"notes", "backend_note", "arguments"})
 
 
 def write_both(test, mesh, parts=4, gap=0, **options):
