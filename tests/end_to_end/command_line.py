@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command line: outputs, and what combinations of options must keep."""
 
+import itertools
 import os
 
 import mesh_reader
@@ -75,22 +76,19 @@ class SameResult(CommandLineTest):
         self.run_tool("generate", "random.off", "--vertices", "3000", "--seed", "4")
 
     def test_threads_layouts_and_executions_give_the_same_coordinates(self):
-        for form in "ab":
-            for precision in ("double", "single"):
-                hashes = set()
-                for more in (("--threads", "1"), ("--threads", "2"), ("--threads", "3"), ("--threads", "16"),
-                             ("--layout", "soa", "--execution", "single-block"), ("--execution", "cdp"),
-                             ("--topology", "device")):
-                    report = self.report("smooth", "random.off", "out.off", "--form", form, "--precision", precision,
-                                         *more)
-                    hashes.add((report["coordinates_hash"], report["uncommitted_hash"]))
-                with self.subTest(form=form, precision=precision):
-                    self.assertEqual(len(hashes), 1)
-
-    def test_forms_and_precisions_are_really_different(self):
-        hashes = [self.report("smooth", "random.off", "out.off", "--form", form, "--precision", precision)
-                  ["coordinates_hash"] for form in "ab" for precision in ("double", "single")]
-        self.assertEqual(len(set(hashes)), 4)
+        ways = (("--threads", "2"), ("--threads", "3"), ("--threads", "16"),
+                ("--layout", "soa", "--execution", "single-block"), ("--execution", "cdp"), ("--topology", "device"))
+        found = set()
+        # Each way twice, with one form and precision and with another. (All with all: tests/smoothing, tests/properties.)
+        for number, (form, precision) in enumerate(itertools.product("ab", ("double", "single"))):
+            hashes = set()
+            for more in (("--threads", "1"), *ways[number % 2::2]):
+                report = self.report("smooth", "random.off", "out.off", "--form", form, "--precision", precision, *more)
+                hashes.add((report["coordinates_hash"], report["uncommitted_hash"]))
+            with self.subTest(form=form, precision=precision):
+                self.assertEqual(len(hashes), 1)
+            found |= hashes
+        self.assertEqual(len(found), 4)  # forms and precisions are really different
 
     def test_stops_are_told_by_their_reason(self):
         for arguments, reason in {("--max-sweeps", "2"): "sweep_limit", ("--tolerance", "0.5"): "tolerance",
