@@ -2,8 +2,6 @@
 // Malformed VTU and VTP files: each is refused with a message or read consistently; none crashes, and nothing of VTK
 // reaches standard error.
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +13,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 
+#include "byte_files.h"
 #include "catch.h"
 #include "support/readings.h"
 #include "support/sanitized.h"
@@ -22,6 +21,7 @@
 
 namespace vtk_xml_malformed_test {
 
+using byte_files::is_valid;
 using trismooth::MeshDocument;
 using trismooth::ReadError;
 using trismooth::VtkXmlCompressor;
@@ -57,20 +57,6 @@ class Silence {
 MeshDocument read(VtkXmlKind kind, const std::string& bytes) {
   return kind == VtkXmlKind::unstructured_grid ? trismooth::vtu_codec.read("a.vtu", bytes)
                                                : trismooth::vtp_codec.read("a.vtp", bytes);
-}
-
-/// What a reader promises of every document.
-bool is_consistent(const MeshDocument& document) {
-  const auto points = static_cast<std::int64_t>(document.point_count());
-  const auto rows_are = [](std::size_t rows) {
-    return [rows](const trismooth::DataArray& array) { return array.rows() == rows; };
-  };
-  return std::ranges::all_of(document.points, [](double x) { return std::isfinite(x); }) &&
-         std::ranges::all_of(document.cells.connectivity, [points](auto v) { return v >= 0 && v < points; }) &&
-         std::ranges::is_sorted(document.cells.offsets) && document.cells.offsets.size() == document.cells.size() + 1 &&
-         document.cells.offsets.back() == static_cast<std::int64_t>(document.cells.connectivity.size()) &&
-         std::ranges::all_of(document.point_arrays, rows_are(document.point_count())) &&
-         std::ranges::all_of(document.cell_arrays, rows_are(document.cells.size()));
 }
 
 std::vector<VtkXmlEncoding> some_encodings() {
@@ -133,7 +119,7 @@ std::string message_of(VtkXmlKind kind, const std::string& bytes) {
 
 TEST_CASE("malformed elements are refused with the place and the reason") {
   const Silence silence;
-  REQUIRE(is_consistent(read(VtkXmlKind::unstructured_grid, good_vtu)));
+  REQUIRE(is_valid(read(VtkXmlKind::unstructured_grid, good_vtu)));
   struct Case {
     std::string from, to, message;
   };
@@ -209,7 +195,7 @@ TEST_CASE("malformed elements are refused with the place and the reason") {
 
 TEST_CASE("block headers that lie are refused before memory is taken") {
   const Silence silence;
-  REQUIRE(is_consistent(read(VtkXmlKind::unstructured_grid, good_raw)));
+  REQUIRE(is_valid(read(VtkXmlKind::unstructured_grid, good_raw)));
   using namespace std::string_literals;
   const std::pair<std::string, std::pair<std::string, std::string>> cases[] = {
       {"\x01\0\0\0\x07"s, {"\xFF\xFF\xFF\xFF\x07"s, "declares 4294967295 bytes of data, but has 17 at most"}},
@@ -248,7 +234,7 @@ TEST_CASE("XML that is damaged behind the appended data is refused with its line
     CHECK(message.find(expected) != std::string::npos);
   }
   const std::string fine = " </AppendedData\n>\n<!-- the end -->\n</VTKFile> <?x y?>\n";
-  CHECK(is_consistent(read(VtkXmlKind::unstructured_grid, replaced(good_raw, end, fine))));
+  CHECK(is_valid(read(VtkXmlKind::unstructured_grid, replaced(good_raw, end, fine))));
 }
 
 TEST_CASE("arrays that share their appended data are refused") {
