@@ -19,7 +19,7 @@ using trismooth::SmoothingOptions;
 
 namespace {
 
-constexpr std::int32_t large = 20000;
+constexpr std::int32_t large = 6000;
 
 }  // namespace
 
@@ -27,13 +27,12 @@ TEST_CASE("every method, form and precision, with and without the guard, gives a
   const RandomMesh mesh = delaunay_mesh(large, 1);
   const Piece piece = plain_piece(mesh, in_strips(mesh));
   for (std::uint64_t index = 0; index < properties::combinations; ++index) {
-    for (const bool guard : {false, true}) {
-      SmoothingOptions options = properties::combination(index);
-      options.max_sweeps = 6;
-      options.guard = guard;
-      INFO(properties::text_of(options));
-      CHECK(smoothed_piece(piece, options, properties::run(mesh, options)) == "");
-    }
+    SmoothingOptions options = properties::combination(index);
+    options.max_sweeps = 6;
+    // Jobs of an even number of ranks guard what those of an odd one do not.
+    options.guard = (index + static_cast<std::uint64_t>(ranks())) % 2 == 0;
+    INFO(properties::text_of(options));
+    CHECK(smoothed_piece(piece, options, properties::run(mesh, options)) == "");
   }
 }
 

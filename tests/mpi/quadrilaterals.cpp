@@ -23,6 +23,7 @@
 #include "catch.h"
 #include "mpi/mixed_pieces.h"
 #include "mpi/pieces.h"
+#include "mpi/random_pieces.h"
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
 #include "support/fake_backend.h"
@@ -46,6 +47,9 @@ TEST_CASE("random meshes with quadrilaterals in pieces come out with the bits of
     const Whole whole = any_mesh(random);
     const SmoothingOptions options = any_options(number, random);
     const Cut cut = any_cut(whole, random);
+    if (!mpi_tests::is_for_this_job(number)) {
+      continue;
+    }
     const std::string wrong = in_pieces(whole, cut, options, run_whole(whole, options), number);
     INFO(fmt::format("mesh {}: {}", number, properties::text_of(options)));
     REQUIRE(wrong == "");

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "trismooth/base/splitmix64.h"
+
 #include "mpi/pieces.h"
 #include "properties/for_random_meshes.h"
 #include "properties/smoothing_cases.h"
@@ -121,8 +123,17 @@ std::string in_pieces(const RandomMesh& mesh, const SmoothingOptions& options, c
   }
 }
 
+bool is_for_this_job(std::uint64_t seed) {
+  constexpr std::uint64_t jobs = 3;
+  return trismooth::splitmix64(seed) % jobs == static_cast<std::uint64_t>(ranks()) % jobs ||
+         properties::meshes_of(100) == 0;
+}
+
 void check_random_meshes(std::int64_t count, Gather gather, bool slides, const trismooth::Backend* backend) {
-  for_random_meshes(count, [&](RandomMesh mesh) {
+  for_random_meshes(count, [&](RandomMesh mesh) -> std::string {
+    if (!is_for_this_job(mesh.seed)) {
+      return {};
+    }
     return for_some_options(mesh, 2, [&](SmoothingOptions options, test_meshes::Random& random) -> std::string {
       options.record_min_shape = random.below(2) == 0;
       options.guard = random.below(5) != 0;

@@ -21,4 +21,8 @@ std::string in_pieces(const RandomMesh& mesh, const properties::SmoothingOptions
 void check_random_meshes(std::int64_t count, trismooth::mpi::Gather gather, bool slides,
                          const trismooth::Backend* backend = nullptr);
 
+/// Whether a random mesh is for a job of as many ranks as this one: those of 2, 3 and 4 share the meshes. With
+/// TRISMOOTH_SEED all are.
+bool is_for_this_job(std::uint64_t seed);
+
 }  // namespace mpi_tests
