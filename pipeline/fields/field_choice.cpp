@@ -60,8 +60,8 @@ void choose_by_pattern(const MeshDocument& document, const FieldWishes& wishes, 
 
 }  // namespace
 
-bool can_follow(std::string_view name, ScalarType type, const FieldWishes& wishes) {
-  return why_kept(name, type, wishes).empty();
+bool stays_unasked(std::string_view name, ScalarType type, const FieldWishes& wishes) {
+  return !wishes.fields && wishes.patterns.empty() && why_kept(name, type, wishes).empty();
 }
 
 FieldChoice choose_fields(const MeshDocument& document, const FieldWishes& wishes) {
@@ -86,7 +86,7 @@ FieldChoice choose_fields(const MeshDocument& document, const FieldWishes& wishe
       choice.arrays.push_back(i);
     } else if (is_of_places && wishes.patterns.empty()) {
       choice.notes.push_back(fmt::format("the point array '{}' {}: it is not interpolated", array.name, why));
-    } else if (why.empty() && !wishes.fields && wishes.patterns.empty()) {
+    } else if (stays_unasked(array.name, array.type, wishes)) {
       choice.kept.push_back(i);
     }
   }

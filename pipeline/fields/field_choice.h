@@ -24,20 +24,20 @@ struct FieldWishes {
 /// The point arrays that follow the mesh.
 struct FieldChoice {
   std::vector<std::size_t> arrays;  ///< ascending numbers among the document's
-  std::vector<std::size_t> kept;    ///< those that could be interpolated, where the user has said nothing of fields
+  std::vector<std::size_t> kept;    ///< those that stay (see stays_unasked())
   std::vector<std::string> notes;   ///< what the user should know, one sentence each
 };
 
-/// Whether a point array can be interpolated: one of floating point, but for annotations, the fixed array and the size
-/// array.
-bool can_follow(std::string_view name, ScalarType type, const FieldWishes& wishes);
+/// Whether a point array that says nothing of places stays as read though it could be interpolated, and the user has
+/// said nothing of fields: one of floating point, but for annotations, the fixed array and the size array.
+bool stays_unasked(std::string_view name, ScalarType type, const FieldWishes& wishes);
 
 /// Chooses the point arrays that are interpolated where vertices move:
 /// - none where the user wants fields kept;
 /// - arrays that say something of places (MeshDocument::arrays_of_places);
 /// - and, where the user asks for fields to be interpolated or names some: those that a pattern matches, or all.
-/// Only arrays that can_follow() count; where the user named another one, without a wildcard, a note says that it is
-/// kept.
+/// Only arrays that can be interpolated count; where the user named another one, without a wildcard, a note says that
+/// it is kept.
 ///
 /// Throws std::invalid_argument for a pattern that matches no point array, naming those there are, and for patterns of
 /// fields that are kept. Complexity: linear in the names.

@@ -246,8 +246,8 @@ class PieceMesh final : public StagedMesh {
     const PipelineOptions& options = run_.options;
     const bool holds_them = !options.single || has_arrays(output_format(*options.output, std::nullopt, options.format));
     for (const PieceArray& array : files_.arrays) {
-      if (holds_them && !options.fields && array.of == PieceArray::Of::points && !array.is_added &&
-          can_follow(array.name, array.type, {options.fields, options.field_arrays, constraints_.fixed_array, {}})) {
+      if (holds_them && array.of == PieceArray::Of::points && !array.is_added &&
+          stays_unasked(array.name, array.type, {options.fields, options.field_arrays, constraints_.fixed_array, {}})) {
         run_.result.kept_fields.push_back(array.name);
       }
     }

@@ -167,13 +167,16 @@ def merged(pieces):
     """The mesh as one file: points at the same place are one, as they come; copies of cells are left out."""
     numbers = {}
     points, cells, types = [], [], []
+    point_arrays = {name: [] for name in pieces[0].point_arrays}
     arrays = {name: [] for name in pieces[0].cell_arrays if name != "vtkGhostType"}
     for piece in pieces:
         local = []
-        for point in piece.points:
+        for p, point in enumerate(piece.points):
             if point not in numbers:
                 numbers[point] = len(points)
                 points.append(point)
+                for name in point_arrays:
+                    point_arrays[name].append(piece.point_arrays[name][p])
             local.append(numbers[point])
         ghosts = piece.cell_arrays.get("vtkGhostType", [0] * len(piece.cells))
         for c, cell in enumerate(piece.cells):
@@ -184,6 +187,7 @@ def merged(pieces):
                     arrays[name].append(piece.cell_arrays[name][c])
     mesh = Mesh(points, cells)
     mesh.types = types
+    mesh.point_arrays = point_arrays
     mesh.cell_arrays = arrays
     return mesh
 
