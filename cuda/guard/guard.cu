@@ -4,7 +4,7 @@
 
 #include "trismooth/cuda/guard/guard.h"
 #include "trismooth/cuda/guard/guard_view.cuh"
-#include "trismooth/cuda/packing/slotted_rings.h"
+#include "trismooth/cuda/packing/ring_views.h"
 #include "trismooth/cuda/primitives/atomics.h"
 #include "trismooth/cuda/primitives/device_algorithms.h"
 #include "trismooth/cuda/primitives/falling_key.h"
@@ -13,7 +13,6 @@
 #include "trismooth/cuda/runtime/device_properties.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/runtime/thread_index.cuh"
-#include "trismooth/cuda/topology/rings.h"
 #include "trismooth/smoothing/guard/guard_rule.h"
 
 namespace trismooth::cuda {
@@ -414,15 +413,7 @@ DeviceGuardOutcome finish_guard(Context& context, const Rings& rings, const Guar
   template void launch_writing(const Rings&, const GuardInput<T>&, Point2<double>*, GuardState*, cudaStream_t);       \
   template DeviceGuardOutcome finish_guard(Context&, const Rings&, const GuardInput<T>&, GuardBuffers&,               \
                                            Point2<double>*, GuardState*, GuardState, std::int64_t&)
-INSTANTIATE(float, RingsView);
-INSTANTIATE(float, SlottedMixedRingsView<std::int16_t>);
-INSTANTIATE(float, SlottedMixedRingsView<std::int32_t>);
-INSTANTIATE(float, SlottedRingsView<std::int16_t>);
-INSTANTIATE(float, SlottedRingsView<std::int32_t>);
-INSTANTIATE(double, RingsView);
-INSTANTIATE(double, SlottedMixedRingsView<std::int16_t>);
-INSTANTIATE(double, SlottedMixedRingsView<std::int32_t>);
-INSTANTIATE(double, SlottedRingsView<std::int16_t>);
-INSTANTIATE(double, SlottedRingsView<std::int32_t>);
+TRISMOOTH_WITH_RING_VIEWS(INSTANTIATE, float);
+TRISMOOTH_WITH_RING_VIEWS(INSTANTIATE, double);
 
 }  // namespace trismooth::cuda

@@ -2,12 +2,11 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "trismooth/cuda/packing/slotted_rings.h"
+#include "trismooth/cuda/packing/ring_views.h"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/for_each.cuh"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/sweeps/device_targets.h"
-#include "trismooth/cuda/topology/rings.h"
 #include "trismooth/cuda/update/ring_in_memory.cuh"
 
 namespace trismooth::cuda {
@@ -362,13 +361,9 @@ void DeviceTargets<T>::find_anew(const Rings& rings, const PointArray<T>& points
 #define INSTANTIATE_FOR(T, Rings)                                                \
   template void DeviceTargets<T>::keep(const Rings&, const PointArray<T>&, int); \
   template void DeviceTargets<T>::find(const Rings&, const PointArray<T>&, const LocalFrame*)
-#define INSTANTIATE(T)                                     \
-  template class DeviceTargets<T>;                         \
-  INSTANTIATE_FOR(T, RingsView);                           \
-  INSTANTIATE_FOR(T, SlottedMixedRingsView<std::int16_t>); \
-  INSTANTIATE_FOR(T, SlottedMixedRingsView<std::int32_t>); \
-  INSTANTIATE_FOR(T, SlottedRingsView<std::int16_t>);      \
-  INSTANTIATE_FOR(T, SlottedRingsView<std::int32_t>)
+#define INSTANTIATE(T)             \
+  template class DeviceTargets<T>; \
+  TRISMOOTH_WITH_RING_VIEWS(INSTANTIATE_FOR, T)
 INSTANTIATE(float);
 INSTANTIATE(double);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "trismooth/cuda/packing/slotted_rings.h"
+#include "trismooth/cuda/packing/ring_views.h"
 #include "trismooth/cuda/runtime/check.h"
 #include "trismooth/cuda/runtime/launch.h"
 #include "trismooth/cuda/sweeps/smallest_quotient.cuh"
 #include "trismooth/cuda/sweeps/smallest_quotient.h"
-#include "trismooth/cuda/topology/rings.h"
 
 namespace trismooth::cuda {
 
@@ -29,15 +28,7 @@ void launch_smallest_quotient(const Rings& rings, const PointArray<T>& points, S
 
 #define INSTANTIATE(T, Rings) \
   template void launch_smallest_quotient(const Rings&, const PointArray<T>&, SweepSums*, cudaStream_t)
-INSTANTIATE(float, RingsView);
-INSTANTIATE(float, SlottedMixedRingsView<std::int16_t>);
-INSTANTIATE(float, SlottedMixedRingsView<std::int32_t>);
-INSTANTIATE(float, SlottedRingsView<std::int16_t>);
-INSTANTIATE(float, SlottedRingsView<std::int32_t>);
-INSTANTIATE(double, RingsView);
-INSTANTIATE(double, SlottedMixedRingsView<std::int16_t>);
-INSTANTIATE(double, SlottedMixedRingsView<std::int32_t>);
-INSTANTIATE(double, SlottedRingsView<std::int16_t>);
-INSTANTIATE(double, SlottedRingsView<std::int32_t>);
+TRISMOOTH_WITH_RING_VIEWS(INSTANTIATE, float);
+TRISMOOTH_WITH_RING_VIEWS(INSTANTIATE, double);
 
 }  // namespace trismooth::cuda
