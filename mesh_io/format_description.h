@@ -19,6 +19,7 @@ struct FormatContent {
   bool curved_cells = true;         ///< with nodes in the middle of their sides
   bool eight_node_quads = true;     ///< among these: without a node in the centre
   bool strips = false;              ///< of triangles
+  bool empty_groups = true;         ///< names of groups and sets without members, where it holds names
   bool cells_of_any_order = false;  ///< VTK's Lagrange and Bezier cells
 };
 

@@ -14,10 +14,12 @@
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/letter_case.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/bytes/file_content.h"
 #include "trismooth/mesh_io/codec.h"
 #include "trismooth/mesh_io/document/cells/collapsed_quads.h"
+#include "trismooth/mesh_io/document/cells/empty_groups.h"
 #include "trismooth/mesh_io/document/cells/halved_quads.h"
 #include "trismooth/mesh_io/document/cells/lagrange_cells.h"
 #include "trismooth/mesh_io/document/cells/straight_cells.h"
@@ -92,8 +94,8 @@ std::string describe_collapsed(std::size_t quads, FileFormat target) {
          counted(quads, "is written as the triangle that it is", "are written as the triangles that they are");
 }
 
-/// The document as the target can hold it, where it cannot hold strips, curved cells, quadrilaterals or cells of any
-/// order that the document has; what changes thereby is added to `losses`.
+/// The document as the target can hold it, where it cannot hold strips, curved cells, quadrilaterals, cells of any
+/// order or groups without members that the document has; what changes thereby is added to `losses`.
 std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat target, std::vector<std::string>& losses) {
   const FormatContent& holds = codec_of(target).description.holds;
   std::optional<MeshDocument> changed;
@@ -120,6 +122,12 @@ std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat tar
   if (const std::size_t quads = holds.quads ? 0 : count_quads(now()); quads > 0) {
     losses.push_back(describe_halved(quads, target));
     changed = with_halved_quads(now());
+  }
+  if (const auto names = holds.empty_groups ? std::vector<std::string>{} : names_of_empty_groups(now());
+      !names.empty()) {
+    losses.push_back(std::string(title_of(target)) + " output has no groups without members: " + list_text(names) +
+                     not_written(names.size()));
+    changed = without_empty_groups(now());
   }
   return changed;
 }

@@ -140,7 +140,7 @@ const Codec adcirc_codec{{FileFormat::adcirc,
                           "adcirc",
                           "ADCIRC",
                           {".14", ".grd", ".gr3", ".ll"},
-                          {.names = true, .collapsed_quads = false, .curved_cells = false}},
+                          {.names = true, .collapsed_quads = false, .curved_cells = false, .empty_groups = false}},
                          &read_adcirc,
                          &write_adcirc,
                          &lost_in_adcirc};

@@ -44,9 +44,10 @@ class NamedMembers {
     return sets_[place->second].members;
   }
 
-  /// Those that have members, each member once, ascending.
+  bool has(const std::string& name) const { return places_.contains(name); }
+
+  /// Each member once, ascending.
   std::vector<NamedSet> take() {
-    std::erase_if(sets_, [](const NamedSet& set) { return set.members.empty(); });
     for (NamedSet& set : sets_) {
       std::ranges::sort(set.members);
       set.members.erase(std::unique(set.members.begin(), set.members.end()), set.members.end());
@@ -78,6 +79,7 @@ class CgnsReader {
       read_conditions(zone);
       read_connectivity(zone);
     }
+    add_empty_families();
     finish_sets();
     CgnsSolutions solutions = read_cgns_solutions(tree_, zones_, cell_dimension_, document_);
     document_.point_arrays = std::move(solutions.point_arrays);
@@ -126,10 +128,25 @@ class CgnsReader {
     for (const CgnsNode& family : children) {
       if (std::string name = family.label == "FamilyName_t" ? tree_.text(family) : std::string(); !name.empty()) {
         const auto known = families_.find(name);
+        used_families_.insert(name);
         return known == families_.end() ? std::vector<std::string>{std::move(name)} : known->second;
       }
     }
     return {node.name};
+  }
+
+  /// Those that neither a condition nor a zone is of.
+  void add_empty_families() {
+    for (const CgnsZone& zone : zones_) {
+      group_names(zone.node, tree_.children(zone.node.path, "FamilyName_t"));
+    }
+    for (const auto& [family, names] : families_) {
+      for (const std::string& name : names) {
+        if (!used_families_.contains(family) && !of_points_.has(name)) {
+          of_cells_.of(name);
+        }
+      }
+    }
   }
 
   void read_zone(CgnsNode node) {
@@ -315,7 +332,7 @@ class CgnsReader {
   void finish_sets() {
     document_.point_sets = of_points_.take();
     std::vector<NamedSet> groups = of_cells_.take();
-    const bool has_groups = !groups.empty();
+    const bool has_groups = !std::ranges::all_of(groups, [](const NamedSet& group) { return group.members.empty(); });
     bool tells_sections = false;
     if (zones_.size() > 1) {
       document_.notes.emplace_back(
@@ -338,7 +355,7 @@ class CgnsReader {
     } else if (!has_groups && zones_.front().sections.all().size() > 1) {
       // Nothing else tells regions and sides apart.
       CgnsSectionGroups of_sections = group_cgns_sections(zones_.front().sections, document_.cells);
-      groups = std::move(of_sections.groups);
+      std::ranges::move(of_sections.groups, std::back_inserter(groups));
       tells_sections = of_sections.are_joined;
     }
     std::vector<ListedGroup> listed;
@@ -374,6 +391,7 @@ class CgnsReader {
   bool has_float32_ = false;
   bool has_float64_ = false;
   std::map<std::string, std::vector<std::string>> families_;
+  std::set<std::string> used_families_;
   std::vector<CgnsZone> zones_;
   NamedMembers of_points_;
   NamedMembers of_cells_;

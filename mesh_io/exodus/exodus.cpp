@@ -139,8 +139,9 @@ class ExodusWriter {
   }
 
   template <class Things>
-  void add_ids(const char* status, const char* ids, std::size_t dimension, const Things& things) {
-    file_.add_variable(status, {dimension}, [](std::size_t /*i*/) { return std::int32_t{1}; });
+  void add_ids(const char* status, const char* ids, std::size_t dimension, const Things& things,
+               std::vector<std::int32_t> is_there) {
+    file_.add_variable(status, {dimension}, [is_there = std::move(is_there)](std::size_t i) { return is_there[i]; });
     file_.add_variable(ids, {dimension}, [&things](std::size_t i) { return static_cast<std::int32_t>(things[i].id); },
                        {{"name", "ID", {}}});
   }
@@ -151,7 +152,7 @@ class ExodusWriter {
     }
     const std::size_t elements = file_.add_dimension("num_elem", plan_.elements);
     blocks_ = file_.add_dimension("num_el_blk", plan_.blocks.size());
-    add_ids("eb_status", "eb_prop1", blocks_, plan_.blocks);
+    add_ids("eb_status", "eb_prop1", blocks_, plan_.blocks, std::vector<std::int32_t>(plan_.blocks.size(), 1));
     add_names("eb_names", blocks_, plan_.blocks);
     if (plan_.has_regions) {
       file_.add_variable(exodus_region_property, {blocks_},
@@ -210,9 +211,15 @@ class ExodusWriter {
       return;
     }
     const std::size_t count = file_.add_dimension(names.count, sets.size());
-    add_ids(names.status, names.ids, count, sets);
+    std::vector<std::int32_t> is_there;
+    std::ranges::transform(sets, std::back_inserter(is_there),
+                           [](const ExodusPlanSet& set) { return set.members.empty() ? 0 : 1; });
+    add_ids(names.status, names.ids, count, sets, is_there);
     add_names(names.names, count, sets);
     for (std::size_t i = 0; i < sets.size(); ++i) {
+      if (sets[i].members.empty()) {
+        continue;  // a classic file has no dimensions of length 0
+      }
       const std::string number = std::to_string(i + 1);
       const std::size_t size = file_.add_dimension(names.size + number, sets[i].members.size());
       file_.add_variable(names.members + number, {size},

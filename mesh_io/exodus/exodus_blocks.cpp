@@ -216,6 +216,16 @@ ExodusNames::ExodusNames(const NetcdfFile& file, std::string_view ids, std::stri
   }
 }
 
+std::vector<std::size_t> ExodusNames::without(const NetcdfFile& file, const std::string& variable) const {
+  std::vector<std::size_t> numbers;
+  for (std::size_t number = 1; number <= std::max(ids_.size(), names_.size()); ++number) {
+    if (file.find(variable + std::to_string(number)) == nullptr) {
+      numbers.push_back(number);
+    }
+  }
+  return numbers;
+}
+
 std::int64_t ExodusNames::id(std::size_t number) const {
   return number <= ids_.size() ? ids_[number - 1] : static_cast<std::int64_t>(number);
 }

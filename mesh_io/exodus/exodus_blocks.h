@@ -39,6 +39,9 @@ class ExodusNames {
  public:
   ExodusNames(const NetcdfFile& file, std::string_view ids, std::string_view names);
 
+  /// The numbers, ascending, of those that have no variable of that name and number: no members.
+  std::vector<std::size_t> without(const NetcdfFile& file, const std::string& variable) const;
+
   std::int64_t id(std::size_t number) const;
   std::string name(std::size_t number) const;
   /// The name, or "side set 3".

@@ -244,7 +244,7 @@ class Planner {
           add_side(sets[i], cell);
         }
       }
-      if (!sets[i].members.empty()) {
+      if (!sets[i].members.empty() || (group.is_empty && group.dimension == 1)) {
         sets[i].id = side_ids_.claim(group.number);
         sets[i].name = group.name;
         note_number(group.number, group.name, sets[i].id, plan_.renumbered_sets);
@@ -261,6 +261,11 @@ class Planner {
       }
     }
     FreeIds element_ids;
+    for (const CellGroup& group : groups_.groups) {
+      if (group.is_empty && group.dimension != 1) {
+        plan_.element_sets.push_back({element_ids.claim(0), group.name, {}, {}});
+      }
+    }
     for (std::size_t i = 0; i < document_.cell_sets.size(); ++i) {
       const NamedSet& set = document_.cell_sets[i];
       ExodusPlanSet sides{.name = set.name, .members = {}, .sides = {}};
@@ -276,7 +281,7 @@ class Planner {
         sides.id = side_ids_.claim(0);
         plan_.side_sets.push_back(std::move(sides));
       }
-      if (!elements.members.empty()) {
+      if (!elements.members.empty() || set.members.empty()) {
         elements.id = element_ids.claim(0);
         plan_.element_sets.push_back(std::move(elements));
       }
@@ -286,9 +291,7 @@ class Planner {
   void add_node_sets() {
     FreeIds ids;
     for (const NamedSet& set : document_.point_sets) {
-      if (!set.members.empty()) {
-        plan_.node_sets.push_back({ids.claim(0), set.name, set.members, {}});
-      }
+      plan_.node_sets.push_back({ids.claim(0), set.name, set.members, {}});
     }
   }
 

@@ -44,6 +44,10 @@ class SetReader {
       std::ranges::sort(cells);
       cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     }
+    std::size_t place = 0;
+    std::erase_if(groups_, [this, &place](const ListedGroup& group) {
+      return with_others_.contains(place++) && group.cells.empty();
+    });
     add_listed_groups("exodus:block", std::move(groups_), document_);
     if (are_joined_by_name_) {
       add_array("exodus:typed_block",
@@ -75,7 +79,13 @@ class SetReader {
       const auto [place, is_new] =
           keys[i].empty() ? std::pair(places.end(), true) : places.try_emplace(keys[i], groups_.size());
       if (is_new) {
-        groups_.push_back({block_names_.id(block.number), block_names_.name(block.number), {}});
+        groups_.push_back(
+            {block_names_.id(block.number),
+             block.elements > 0 ? block_names_.name(block.number) : block_names_.name_or(block.number, "element block"),
+             {}});
+      }
+      if (!block.has_cells) {
+        with_others_.insert(groups_.size() - 1);
       }
       ListedGroup& group = is_new ? groups_.back() : groups_[place->second];
       if (!is_new && are_joined_by_name_) {
@@ -85,6 +95,9 @@ class SetReader {
       group.cells.resize(before + (block.has_cells ? block.elements : 0));
       std::iota(group.cells.begin() + static_cast<std::ptrdiff_t>(before), group.cells.end(),
                 static_cast<std::int32_t>(block.first_cell));
+    }
+    for (const std::size_t number : block_names_.without(file_, "connect")) {
+      groups_.push_back({block_names_.id(number), block_names_.name_or(number, "element block"), {}});
     }
   }
 
@@ -227,6 +240,9 @@ class SetReader {
         }
       }
     }
+    for (const std::size_t number : names.without(file_, "elem_ss")) {
+      sets.push_back({number, {}, {}});
+    }
     // The first two sides of a triangle in space are its faces; where there are three sides at most, and one of these
     // two and the third both occur, who wrote the file numbered the edges alone.
     const bool has_first_faces = !(highest == 2 && lowest < 2);
@@ -253,8 +269,7 @@ class SetReader {
     if (corners == 0) {
       if (cell_type::dimension(type) == 1) {
         groups_[group].cells.push_back(static_cast<std::int32_t>(*cell));
-      } else if (last_with_other_sides_ != group) {
-        last_with_other_sides_ = group;
+      } else if (with_others_.insert(group).second) {
         add_to_list(with_other_sides_, groups_[group].name);
       }
       return;
@@ -265,6 +280,7 @@ class SetReader {
       if (faces_.empty() || last_of_faces_ != group) {
         faces_.push_back({groups_[group].name, {}});
         last_of_faces_ = group;
+        with_others_.insert(group);
       }
       faces_.back().members.push_back(static_cast<std::int32_t>(*cell));
       return;
@@ -316,6 +332,14 @@ class SetReader {
     cells.append(is_curved ? cell_type::quadratic_edge : cell_type::line, std::span(line).first(is_curved ? 3 : 2));
   }
 
+  /// Adds those of the sets that have no members.
+  void add_empty_sets(const ExodusNames& names, const std::string& variable, std::string_view what,
+                      std::vector<NamedSet>& sets) const {
+    for (const std::size_t number : names.without(file_, variable)) {
+      sets.push_back({names.name_or(number, what), {}});
+    }
+  }
+
   void read_element_sets() {
     const ExodusNames names(file_, "els_prop1", "els_names");
     for (const auto& [number, elements] : numbered_variables(file_, "elem_els")) {
@@ -328,6 +352,7 @@ class SetReader {
         }
       }
     }
+    add_empty_sets(names, "elem_els", "element set", document_.cell_sets);
   }
 
   void read_node_sets() {
@@ -339,6 +364,7 @@ class SetReader {
           numbers_of(*nodes, "node set " + std::to_string(number), document_.point_count(), "node");
       set.members.assign(members.begin(), members.end());
     }
+    add_empty_sets(names, "node_ns", "node set", document_.point_sets);
   }
 
   const NetcdfFile& file_;
@@ -347,11 +373,11 @@ class SetReader {
   MeshDocument& document_;
   const ExodusNames block_names_{file_, "eb_prop1", "eb_names"};
   bool are_joined_by_name_ = false;
-  std::vector<ListedGroup> groups_;  ///< blocks, then side sets
+  std::vector<ListedGroup> groups_;    ///< blocks, then side sets
+  std::set<std::size_t> with_others_;  ///< places of those that have what is no cell
   std::vector<Edge> edges_;
   std::vector<NamedSet> faces_;  ///< side sets of faces of shells
   std::size_t last_of_faces_ = 0;
-  std::size_t last_with_other_sides_ = 0;
   std::string with_other_sides_;
 };
 

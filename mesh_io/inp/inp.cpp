@@ -221,7 +221,10 @@ bool is_inp(std::string_view bytes) {
 
 }  // namespace
 
-const Codec inp_codec{
-    {FileFormat::inp, "inp", "Abaqus", {".inp"}, {.names = true}}, &read_inp, &write_inp, &lost_in_inp, &is_inp};
+const Codec inp_codec{{FileFormat::inp, "inp", "Abaqus", {".inp"}, {.names = true, .empty_groups = false}},
+                      &read_inp,
+                      &write_inp,
+                      &lost_in_inp,
+                      &is_inp};
 
 }  // namespace trismooth

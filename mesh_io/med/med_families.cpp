@@ -11,9 +11,11 @@ namespace trismooth {
 namespace {
 
 /// The number of the family of each point or cell, `step`, twice that, and so on; empty where none is in a group. Cells
-/// of two dimensions share no family: programs make of each a part of one dimension.
+/// of two dimensions share no family: programs make of each a part of one dimension. Groups without members have a
+/// family each.
 template <class DimensionOf>
-std::vector<std::int64_t> find_families(std::vector<std::vector<std::size_t>>& lists, std::int64_t step,
+std::vector<std::int64_t> find_families(std::vector<std::vector<std::size_t>>& lists,
+                                        const std::vector<std::size_t>& empty, std::int64_t step,
                                         const DimensionOf& dimension_of, std::vector<MedFamily>& families) {
   std::map<std::pair<int, std::vector<std::size_t>>, std::int64_t> known;
   std::vector<std::int64_t> of_each(lists.size());
@@ -28,7 +30,11 @@ std::vector<std::int64_t> find_families(std::vector<std::vector<std::size_t>>& l
     }
     of_each[i] = family->second;
   }
-  return families.empty() ? std::vector<std::int64_t>{} : of_each;
+  const bool has_members = !families.empty();
+  for (const std::size_t group : empty) {
+    families.push_back({step * (static_cast<std::int64_t>(families.size()) + 1), {group}});
+  }
+  return has_members ? of_each : std::vector<std::int64_t>{};
 }
 
 }  // namespace
@@ -38,10 +44,10 @@ MedFamilies plan_med_families(const MeshDocument& document) {
   FittedNames names = fit_names(lists.names, med_group_name_size);
   MedFamilies plan{std::move(names.names), std::move(names.renamed), std::move(lists.arrays), {}, {}, {}, {}};
   plan.cell_families = find_families(
-      lists.of_cells, -1, [&](std::size_t cell) { return cell_type::dimension(document.cells.types[cell]); },
-      plan.of_cells);
+      lists.of_cells, lists.empty_of_cells, -1,
+      [&](std::size_t cell) { return cell_type::dimension(document.cells.types[cell]); }, plan.of_cells);
   plan.point_families = find_families(
-      lists.of_points, 1, [](std::size_t /*point*/) { return 0; }, plan.of_points);
+      lists.of_points, lists.empty_of_points, 1, [](std::size_t /*point*/) { return 0; }, plan.of_points);
   return plan;
 }
 

@@ -373,8 +373,7 @@ class MedReader {
     bool all_known = true;
     GroupMembers of_nodes(read_families(all + "/NOEUD"));
     all_known &= of_nodes.add(families_in(step_ + "/NOE", document_.point_count()), 0, budget_);
-    std::ranges::copy_if(of_nodes.groups, std::back_inserter(document_.point_sets),
-                         [](const NamedSet& set) { return !set.members.empty(); });
+    document_.point_sets = std::move(of_nodes.groups);
     GroupMembers of_elements(read_families(all + "/ELEME"));
     std::vector<std::int64_t> numbers(document_.cells.size());
     for (const MedBlock& block : blocks_) {
@@ -384,13 +383,10 @@ class MedReader {
     }
     std::vector<ListedGroup> listed;
     for (NamedSet& set : of_elements.groups) {
-      if (!set.members.empty()) {
-        listed.push_back({0, std::move(set.name), std::move(set.members)});
-      }
+      listed.push_back({0, std::move(set.name), std::move(set.members)});
     }
-    if (!listed.empty()) {
-      add_listed_groups("med:group", std::move(listed), document_);
-    } else if (std::ranges::any_of(numbers, [](std::int64_t number) { return number != 0; })) {
+    if (!add_listed_groups("med:group", std::move(listed), document_) &&
+        std::ranges::any_of(numbers, [](std::int64_t number) { return number != 0; })) {
       // Families tell elements apart where no groups do.
       document_.cell_arrays.push_back(make_data_array("med:family", 1, std::move(numbers)));
     }

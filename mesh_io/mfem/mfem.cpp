@@ -69,8 +69,12 @@ class MfemElements {
     writer.write_line([count](TextLines& line) { line.number(count); });
     for (const auto& named : names_) {
       if (!named.second.empty()) {
-        writer.write_line(
-            [&named](TextLines& line) { line.word(quoted_name(named.second)).number(1).number(named.first); });
+        writer.write_line([&named](TextLines& line) {
+          line.word(quoted_name(named.second)).number(named.first == 0 ? 0 : 1);
+          if (named.first != 0) {
+            line.number(named.first);
+          }
+        });
       }
     }
   }
@@ -93,7 +97,7 @@ class MfemElements {
       const CellGroup& group = groups_.groups[i];
       if (group.dimension == dimension) {
         attributes_[i] = positive ? group.number : ++counted;
-        names_.emplace_back(attributes_[i], group.name);
+        names_.emplace_back(group.is_empty ? 0 : attributes_[i], group.name);
       }
     }
     none_ = 1 + (positive ? highest : counted);
@@ -115,7 +119,7 @@ class MfemElements {
   const CellGroups& groups_;
   std::vector<std::size_t> cells_;
   std::vector<std::int64_t> attributes_;                     ///< of each group
-  std::vector<std::pair<std::int64_t, std::string>> names_;  ///< attribute and name, perhaps empty
+  std::vector<std::pair<std::int64_t, std::string>> names_;  ///< attribute, or 0, and name, perhaps empty
   std::int64_t none_ = 1;                                    ///< of cells without a group
 };
 

@@ -75,6 +75,9 @@ class MshEntityPlanner {
     }
     groups_of_cells_.resize(document_.cell_sets.empty() ? 0 : cells_.size());
     for (const NamedSet& set : document_.cell_sets) {
+      if (set.members.empty()) {
+        place_of_set(set.name, 2);
+      }
       std::array<std::int32_t, 4> places{-1, -1, -1, -1};
       for (const std::int32_t member : set.members) {
         const auto cell = static_cast<std::size_t>(member);

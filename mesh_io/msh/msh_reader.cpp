@@ -306,6 +306,11 @@ class MshReader {
     }
     ArrayDescription description;
     description.value_names = value_names_;
+    if (!has_msh_label(elements_.physical)) {
+      for (const ValueName& name : value_names_) {
+        document_.cell_sets.push_back({name.name, {}});
+      }
+    }
     add("gmsh:physical", elements_.physical,
         value_names_.empty() ? nullptr : std::make_shared<const ArrayDescription>(std::move(description)));
     add("gmsh:geometrical", elements_.geometrical);

@@ -175,7 +175,7 @@ bool recognises_sms(std::string_view bytes) {
 
 }  // namespace
 
-const Codec sms_codec{{FileFormat::sms, "2dm", "SMS 2dm", {".2dm"}, {.names = true}},
+const Codec sms_codec{{FileFormat::sms, "2dm", "SMS 2dm", {".2dm"}, {.names = true, .empty_groups = false}},
                       &read_sms,
                       &write_sms,
                       &lost_in_sms,

@@ -6,10 +6,11 @@
 
 namespace trismooth {
 
-const Codec su2_codec{{FileFormat::su2, "su2", "SU2", {".su2"}, {.names = true, .curved_cells = false}, 0},
-                      &read_su2,
-                      &write_su2,
-                      &lost_in_su2,
-                      &recognises_su2};
+const Codec su2_codec{
+    {FileFormat::su2, "su2", "SU2", {".su2"}, {.names = true, .curved_cells = false, .empty_groups = false}, 0},
+    &read_su2,
+    &write_su2,
+    &lost_in_su2,
+    &recognises_su2};
 
 }  // namespace trismooth

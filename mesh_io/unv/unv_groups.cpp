@@ -41,10 +41,15 @@ void add_unv_groups(std::vector<UnvGroup> groups, const PointIds& nodes, const P
     if (names_others(group.nodes, nodes) || names_others(group.elements, elements)) {
       add_to_list(with_others, group.name);
     }
-    if (std::vector<std::int32_t> points = places_of(group.nodes, nodes); !points.empty()) {
+    std::vector<std::int32_t> points = places_of(group.nodes, nodes);
+    std::vector<std::int32_t> cells = places_of(group.elements, elements);
+    const bool is_of_cells = points.empty() || !cells.empty();
+    if (!points.empty()) {
       document.point_sets.push_back({group.name, std::move(points)});
     }
-    listed.push_back({group.number, std::move(group.name), places_of(group.elements, elements)});
+    if (is_of_cells) {
+      listed.push_back({group.number, std::move(group.name), std::move(cells)});
+    }
   }
   add_listed_groups("unv:group", std::move(listed), document);
   if (!with_others.empty()) {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/document/cells/cell_groups.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "trismooth/mesh_io/document/cells/empty_groups.h"
 
 #include "catch.h"
 
@@ -66,7 +69,7 @@ TEST_CASE("groups are told apart by the dimension of their cells, and named by i
   add(named, "gmsh:physical", {7, 5, 5, 5, 0}, {{5, 1, "inlet"}, {5, 2, "air"}, {9, 2, "unused"}});
   const auto found = find_cell_groups(named);
   CHECK(found.arrays.text() == "gmsh:physical");
-  CHECK(texts(found.groups) == std::vector<std::string>{"1:5:inlet", "1:7:", "2:5:air"});
+  CHECK(texts(found.groups) == std::vector<std::string>{"1:5:inlet", "1:7:", "2:5:air", "2:9:unused"});
   CHECK(found.of_cell == std::vector<std::int32_t>{1, 0, 2, 2, -1});
 }
 
@@ -101,4 +104,21 @@ TEST_CASE("lines are grouped by their own array where none has regions, and by t
   CHECK(texts(find_cell_groups(sides).groups) == std::vector<std::string>{"1:3:bottom_3", "1:5:bottom_5"});
   add(sides, "material", {1, 0, 7, 7, 7});
   CHECK(texts(find_cell_groups(sides).groups) == std::vector<std::string>{"1:1:", "2:7:"});
+}
+
+TEST_CASE("a group that the file names and no cell is in is empty, unless a set has its cells") {
+  MeshDocument named = document();
+  add(named, "region", {1, 1, 2, 2, 3}, {{1, 1, "wall"}, {4, 1, "spare"}, {3, 2, "c"}, {5, 2, "whole"}});
+  named.cell_sets = {{"whole", {2, 3}}, {"later", {}}};
+  named.point_sets = {{"nowhere", {}}, {"corner", {0}}};
+  const auto groups = find_cell_groups(named).groups;
+  CHECK(texts(groups) == std::vector<std::string>{"1:1:wall", "1:4:spare", "2:2:", "2:3:c"});
+  CHECK(groups[1].is_empty);
+  CHECK(std::ranges::count(groups, true, &CellGroup::is_empty) == 1);
+  CHECK(trismooth::names_of_empty_groups(named) == std::vector<std::string>{"spare", "later", "nowhere"});
+  const MeshDocument without = trismooth::without_empty_groups(named);
+  CHECK(trismooth::names_of_empty_groups(without).empty());
+  CHECK(without.cell_sets.size() == 1);
+  CHECK(without.point_sets.size() == 1);
+  CHECK(without.cell_arrays[0].description->value_names.size() == 3);
 }

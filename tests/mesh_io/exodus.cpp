@@ -273,7 +273,7 @@ TEST_CASE("Exodus: regions are written as blocks, lines of groups as side sets, 
   const std::vector<double> load = values_of<double>(read.cell_arrays, "load_y");
   REQUIRE(load.size() == 6);
   CHECK(std::vector(load.begin(), load.begin() + 4) == std::vector<double>{4, 8, 6, 12});
-  CHECK(read.point_sets == std::vector<NamedSet>{{"corners", {0, 2}}});
+  CHECK(read.point_sets == std::vector<NamedSet>{{"corners", {0, 2}}, {"none", {}}});
   CHECK(read.cell_sets == std::vector<NamedSet>{{"around", {4, 5}}, {"upper", {1, 2}}});
   CHECK(
       what_is_lost(document, FileFormat::exodus) ==

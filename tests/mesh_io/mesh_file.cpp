@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "trismooth/mesh_io/mesh_file.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -11,9 +13,13 @@
 
 #include <sys/stat.h>
 
+#include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/cells/empty_groups.h"
 #include "trismooth/mesh_io/errors.h"
 
 #include "catch.h"
+#include "support/says.h"
 #include "support/scratch_folder.h"
 
 using trismooth::FileFormat;
@@ -147,6 +153,37 @@ TEST_CASE("a mesh with another number of points is not written into the original
   MeshDocument document = read_mesh(folder.write("in.off", triangle));
   document.points.resize(12);
   CHECK_THROWS_AS(write_mesh(folder / "out.off", document), WriteError);
+}
+
+TEST_CASE("groups and sets without members come back from formats that hold them, and are told of elsewhere") {
+  const ScratchFolder folder;
+  MeshDocument document = read_mesh(folder.write("mesh.off", triangle));
+  document.cell_arrays = {trismooth::make_data_array("region", 1, std::vector<std::int32_t>{1})};
+  document.cell_arrays[0].description = std::make_shared<const trismooth::ArrayDescription>(
+      trismooth::ArrayDescription{{}, {}, {{1, 2, "steel"}, {3, 1, "side"}, {9, 2, "spare"}}, {}});
+  document.cell_sets = {{"later", {}}};
+  document.point_sets = {{"nowhere", {}}};
+  using enum FileFormat;
+  for (const FileFormat format : {xdmf, exodus, med, cgns, unv, msh}) {
+    if (!trismooth::is_available(format)) {
+      continue;
+    }
+    CAPTURE(to_string(format));
+    const fs::path path = folder / ("mesh" + std::string(codec_of(format).description.extensions[0]));
+    write_mesh(path, document);
+    std::vector<std::string> names = trismooth::names_of_empty_groups(read_mesh(path));
+    std::ranges::sort(names);
+    const std::string told = trismooth::list_text(what_is_lost(document, format));
+    for (const std::string group : {"later", "nowhere", "side", "spare"}) {
+      CAPTURE(group);
+      CHECK(std::ranges::binary_search(names, group) != says(told, group));
+    }
+    CHECK(names.size() == (format == msh ? 3 : 4));
+  }
+  for (const FileFormat format : {FileFormat::inp, FileFormat::su2, FileFormat::sms, FileFormat::adcirc}) {
+    CHECK(says(trismooth::list_text(what_is_lost(document, format)),
+               " output has no groups without members: side, spare, later, nowhere are not written"));
+  }
 }
 
 TEST_CASE("nothing is lost in the format that was read") {

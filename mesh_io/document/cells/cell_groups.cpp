@@ -6,6 +6,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "trismooth/base/text/list_text.h"
@@ -107,8 +109,10 @@ std::vector<std::int64_t> values_of(const DataArray& array) {
   });
 }
 
-/// Adds the groups that an array has of cells of that dimension, behind those that are found.
-void add_groups(const DataArray& array, int dimension, bool are_named, const CellList& cells, CellGroups& found) {
+/// Adds the groups that an array has of cells of that dimension, behind those that are found. `sets`: the names of sets
+/// of cells that have any.
+void add_groups(const DataArray& array, int dimension, bool are_named, const CellList& cells,
+                const std::set<std::string_view>& sets, CellGroups& found) {
   const std::vector<std::int64_t> values = values_of(array);
   std::map<std::int64_t, std::int32_t> places;
   // Cells of one group stand together, mostly.
@@ -119,9 +123,16 @@ void add_groups(const DataArray& array, int dimension, bool are_named, const Cel
     }
   }
   const std::map<GroupKey, std::string> names = names_of(array);
+  constexpr std::int32_t without_cells = 1;
+  for (const auto& [key, name] : names) {
+    if (key.first == dimension && !name.empty() && !sets.contains(name)) {
+      places.try_emplace(key.second, without_cells);
+    }
+  }
   for (auto& [value, place] : places) {
     const auto name = names.find({dimension, value});
     CellGroup group{dimension, value, name == names.end() ? std::string() : name->second};
+    group.is_empty = place == without_cells;
     if (value == 0 && group.name.empty() && (has_names(array) || places.size() > 1)) {
       place = -1;
       continue;
@@ -199,12 +210,18 @@ CellGroups find_cell_groups(const MeshDocument& document) {
   const CellList& cells = document.cells;
   CellGroups found;
   found.of_cell.resize(arrays == ArraysOfDimensions{} ? 0 : cells.size(), -1);
+  std::set<std::string_view> sets;
+  for (const NamedSet& set : document.cell_sets) {
+    if (!set.members.empty()) {
+      sets.insert(set.name);
+    }
+  }
   const bool are_several =
       std::ranges::any_of(arrays, [&arrays](const DataArray* array) { return array != nullptr && array != arrays[2]; });
   for (std::size_t dimension = 0; dimension < arrays.size(); ++dimension) {
     if (const DataArray* const array = arrays.at(dimension)) {
       found.arrays.of_dimension.at(dimension) = array->name;
-      add_groups(*array, static_cast<int>(dimension), are_several, cells, found);
+      add_groups(*array, static_cast<int>(dimension), are_several, cells, sets, found);
     }
   }
   find_whole_sets(document, found);

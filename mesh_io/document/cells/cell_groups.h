@@ -19,6 +19,7 @@ struct CellGroup {
   /// The place among the document's cell_sets of the one of its name that has all its cells, and those that are in
   /// others' groups first, where groups overlap; -1: there is none.
   std::int32_t whole_set = -1;
+  bool is_empty = false;  ///< no cell has the number, whose name the file gives, and no set of cells is called so
 };
 
 /// The name of the set of all cells of a group without a name: "physical 3".
@@ -38,7 +39,7 @@ struct GroupArrays {
 struct CellGroups {
   GroupArrays arrays;
   std::vector<std::int32_t> of_cell;  ///< a place in `groups` for every cell; -1: none. Empty where no array has groups
-  std::vector<CellGroup> groups;      ///< ascending by dimension and number; each has a cell
+  std::vector<CellGroup> groups;      ///< ascending by dimension and number
 };
 
 /// The groups by the document's cell array that says most of them: the first that has value_names, else the first of

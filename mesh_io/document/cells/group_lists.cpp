@@ -22,6 +22,9 @@ class GroupLister {
     std::vector<std::size_t> places;
     for (const CellGroup& group : groups.groups) {
       places.push_back(place_of(group.name.empty() ? name_of_unnamed_group(group.number) : group.name));
+      if (group.is_empty) {
+        lists_.empty_of_cells.push_back(places.back());
+      }
     }
     lists_.of_cells.resize(document_.cells.size());
     for (std::size_t cell = 0; cell < groups.of_cell.size(); ++cell) {
@@ -30,8 +33,9 @@ class GroupLister {
       }
     }
     lists_.of_points.resize(document_.point_count());
-    add_sets(document_.cell_sets, lists_.of_cells);
-    add_sets(document_.point_sets, lists_.of_points);
+    add_sets(document_.cell_sets, lists_.of_cells, lists_.empty_of_cells);
+    add_sets(document_.point_sets, lists_.of_points, lists_.empty_of_points);
+    keep_empty_ones();
     return std::move(lists_);
   }
 
@@ -44,9 +48,13 @@ class GroupLister {
     return known->second;
   }
 
-  void add_sets(const std::vector<NamedSet>& sets, std::vector<std::vector<std::size_t>>& of_each) {
+  void add_sets(const std::vector<NamedSet>& sets, std::vector<std::vector<std::size_t>>& of_each,
+                std::vector<std::size_t>& empty) {
     for (const NamedSet& set : sets) {
       const std::size_t place = place_of(set.name);
+      if (set.members.empty()) {
+        empty.push_back(place);
+      }
       for (const std::int32_t member : set.members) {
         of_each[static_cast<std::size_t>(member)].push_back(place);
       }
@@ -54,6 +62,23 @@ class GroupLister {
     for (std::vector<std::size_t>& groups : of_each) {
       std::ranges::sort(groups);
       groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+    }
+  }
+
+  /// A group may be empty under one name with others, or of cells and of points.
+  void keep_empty_ones() {
+    std::vector<bool> is_done(lists_.names.size());
+    for (const auto* const of_each : {&lists_.of_cells, &lists_.of_points}) {
+      for (const std::vector<std::size_t>& groups : *of_each) {
+        std::ranges::for_each(groups, [&is_done](std::size_t place) { is_done[place] = true; });
+      }
+    }
+    for (std::vector<std::size_t>* const empty : {&lists_.empty_of_cells, &lists_.empty_of_points}) {
+      std::erase_if(*empty, [&is_done](std::size_t place) {
+        const bool is_known = is_done[place];
+        is_done[place] = true;
+        return is_known;
+      });
     }
   }
 

@@ -18,6 +18,8 @@ struct GroupLists {
   std::vector<std::string> names;                   ///< each once, in the order in which they come first
   std::vector<std::vector<std::size_t>> of_cells;   ///< the groups of each cell as places in `names`, ascending
   std::vector<std::vector<std::size_t>> of_points;  ///< likewise
+  std::vector<std::size_t> empty_of_cells;          ///< those that no cell and no point is in, of cells
+  std::vector<std::size_t> empty_of_points;         ///< likewise, of points
 };
 
 /// Complexity: n log n in all members.

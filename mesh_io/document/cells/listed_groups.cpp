@@ -60,17 +60,19 @@ std::vector<std::int64_t> values_of_groups(const std::vector<ListedGroup>& group
 
 }  // namespace
 
-void add_listed_groups(const std::string& array, std::vector<ListedGroup> groups, MeshDocument& document) {
+bool add_listed_groups(const std::string& array, std::vector<ListedGroup> groups, MeshDocument& document) {
   std::vector<Dimensions> dimensions;
   std::vector<std::size_t> by_size;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     dimensions.push_back(dimensions_of(document.cells, groups[i].cells));
     if (!groups[i].cells.empty()) {
       by_size.push_back(i);
+    } else {
+      document.cell_sets.push_back({groups[i].name, {}});
     }
   }
   if (by_size.empty()) {
-    return;
+    return false;
   }
   const std::vector<std::int64_t> values = values_of_groups(groups, dimensions);
   std::ranges::sort(by_size, {}, [&groups](std::size_t i) { return std::pair(groups[i].cells.size(), i); });
@@ -104,6 +106,7 @@ void add_listed_groups(const std::string& array, std::vector<ListedGroup> groups
     of_cells.description = std::make_shared<const ArrayDescription>(std::move(description));
   }
   document.cell_arrays.push_back(std::move(of_cells));
+  return true;
 }
 
 }  // namespace trismooth
