@@ -14,6 +14,7 @@ namespace trismooth {
 struct FormatContent {
   bool arrays = false;              ///< of points and cells by name; annotations can be added to these
   bool names = false;               ///< of values and sets; or the codec's what_is_lost tells of these itself
+  bool units = false;               ///< of arrays, where it has any
   bool quads = true;                ///< else each is written as two triangles
   bool collapsed_quads = true;      ///< quadrilaterals that repeat a corner
   bool curved_cells = true;         ///< with nodes in the middle of their sides

@@ -134,6 +134,9 @@ std::optional<MeshDocument> adapted(const MeshDocument& document, FileFormat tar
 
 std::vector<std::string> lost_in(const MeshDocument& document, FileFormat target) {
   std::vector<std::string> lost = codec_of(target).what_is_lost(document);
+  if (has_arrays(target) && !codec_of(target).description.holds.units) {
+    std::ranges::move(describe_lost_units(title_of(target), document), std::back_inserter(lost));
+  }
   if (!has_names(target)) {
     // Names of arrays that are lost as a whole are not worth a word.
     if (has_arrays(target)) {

@@ -357,6 +357,7 @@ std::vector<std::string> lost_in_cgns(const MeshDocument& document) {
   const CgnsArrays of_cells = plan_cgns_arrays(document.cell_arrays, lists.arrays);
   std::ranges::move(describe_lost_field_arrays("CGNS", document), std::back_inserter(sentences));
   std::ranges::move(describe_lost_names("CGNS", document, lists.arrays), std::back_inserter(sentences));
+  std::ranges::move(describe_widened("CGNS", document, lists.arrays), std::back_inserter(sentences));
   if (const std::size_t cells = count_cells_below(document.cells); cells > 0 && !of_cells.components.empty()) {
     sentences.push_back("CGNS has values of the cells of the highest dimension: those of cell arrays at " +
                         counted(cells, "other cell are", "other cells are") + " not written");

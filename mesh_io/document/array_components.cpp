@@ -26,4 +26,15 @@ ScalarType widened_type(const DataArray& array) {
   }
 }
 
+bool is_exact_as_double(const DataArray& array) {
+  const auto is_exact = [](auto value) {
+    const auto behind = 2.0 * static_cast<double>(std::numeric_limits<decltype(value)>::max() / 2 + 1);
+    const auto real = static_cast<double>(value);
+    return real < behind && static_cast<decltype(value)>(real) == value;
+  };
+  return array.type == ScalarType::int64    ? std::ranges::all_of(array.as<std::int64_t>(), is_exact)
+         : array.type == ScalarType::uint64 ? std::ranges::all_of(array.as<std::uint64_t>(), is_exact)
+                                            : true;
+}
+
 }  // namespace trismooth

@@ -15,6 +15,9 @@ namespace trismooth {
 /// linear for uint64, else constant.
 ScalarType widened_type(const DataArray& array);
 
+/// Whether a double holds every number of the array. Complexity: linear for numbers of 64 bits, else constant.
+bool is_exact_as_double(const DataArray& array);
+
 /// The component of those rows of the array, as T. Complexity: linear in the rows.
 template <class T>
 std::vector<T> component_of(const DataArray& array, std::size_t component, std::span<const std::size_t> rows) {

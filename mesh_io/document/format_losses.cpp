@@ -7,6 +7,8 @@
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/document/array_components.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/cells/other_cells.h"
 
 namespace trismooth {
@@ -68,6 +70,48 @@ std::vector<std::string> describe_lost_names(std::string_view format, const Mesh
     return {};
   }
   return {std::string(format) + " holds no names of values: those of " + arrays + " are not written"};
+}
+
+std::vector<std::string> describe_lost_units(std::string_view format, const MeshDocument& document) {
+  std::string arrays;
+  for (const auto* const all : {&document.point_arrays, &document.cell_arrays, &document.field_arrays}) {
+    for (const DataArray& array : *all) {
+      if (!unit_of(array).empty()) {
+        add_to_list(arrays, shown_name(array));
+      }
+    }
+  }
+  if (arrays.empty()) {
+    return {};
+  }
+  return {std::string(format) + " holds no units: those of " + arrays + " are not written"};
+}
+
+std::vector<std::string> describe_rounded(std::string_view format, std::string_view holds,
+                                          std::span<const DataArray* const> arrays) {
+  std::vector<const DataArray*> rounded;
+  std::ranges::copy_if(arrays, std::back_inserter(rounded),
+                       [](const DataArray* array) { return !is_exact_as_double(*array); });
+  if (rounded.empty()) {
+    return {};
+  }
+  return {std::string(format) + " holds " + std::string(holds) + ": " +
+          list_text(rounded, [](const DataArray* array) { return shown_name(*array); }) +
+          (rounded.size() == 1 ? " is rounded" : " are rounded")};
+}
+
+std::vector<std::string> describe_widened(std::string_view format, const MeshDocument& document,
+                                          const GroupArrays& but) {
+  std::vector<const DataArray*> widened;
+  for (const auto* const arrays : {&document.point_arrays, &document.cell_arrays}) {
+    for (const DataArray& array : *arrays) {
+      const bool is_group = arrays == &document.cell_arrays && but.has(array.name);
+      if (array.type == ScalarType::uint64 && widened_type(array) == ScalarType::float64 && !is_group) {
+        widened.push_back(&array);
+      }
+    }
+  }
+  return describe_rounded(format, "whole numbers below 2^63", widened);
 }
 
 std::vector<std::string> describe_lost_sets(std::string_view format, const MeshDocument& document) {

@@ -44,6 +44,19 @@ std::vector<std::string> describe_lost_field_arrays(std::string_view format, con
 std::vector<std::string> describe_lost_names(std::string_view format, const MeshDocument& document,
                                              const GroupArrays& held = {});
 
+/// The sentence for the units that the document's arrays have, at most one: "XDMF holds no units: those of speed are
+/// not written".
+std::vector<std::string> describe_lost_units(std::string_view format, const MeshDocument& document);
+
+/// The sentence for those of `arrays`, which a format writes as numbers of floating point, that these do not hold, at
+/// most one: "MED holds whole numbers below 2^63: id is rounded".
+std::vector<std::string> describe_rounded(std::string_view format, std::string_view holds,
+                                          std::span<const DataArray* const> arrays);
+
+/// The same of the arrays of whole numbers whose widened_type() is of floating point, but those that groups are from.
+std::vector<std::string> describe_widened(std::string_view format, const MeshDocument& document,
+                                          const GroupArrays& but);
+
 /// One sentence for the document's sets of points and one for those of cells: "OFF holds no sets of points: inlet,
 /// outlet are not written".
 std::vector<std::string> describe_lost_sets(std::string_view format, const MeshDocument& document);

@@ -289,10 +289,12 @@ std::vector<std::string> lost_in_exodus(const MeshDocument& document) {
       describe_lost_cells("Exodus II", "points, lines, faces and solids", types, document.cells);
   std::ranges::move(describe_lost_field_arrays("Exodus II", document), std::back_inserter(sentences));
   std::string whole;
+  std::vector<const DataArray*> rounded;
   for (const auto* arrays : {&document.point_arrays, &document.cell_arrays}) {
     for (const DataArray& array : *arrays) {
       if (is_whole(array) && (arrays == &document.point_arrays || !plan.group_arrays.has(array.name))) {
         add_to_list(whole, shown_name(array));
+        rounded.push_back(&array);
       }
     }
   }
@@ -300,6 +302,7 @@ std::vector<std::string> lost_in_exodus(const MeshDocument& document) {
     sentences.push_back("Exodus II has real numbers at nodes and elements: the whole ones of " + whole +
                         " are written as such");
   }
+  std::ranges::move(describe_rounded("Exodus II", "real numbers", rounded), std::back_inserter(sentences));
   if (plan.lines_as_sides > 0) {
     sentences.push_back(
         "Exodus II has boundaries as sides of faces: " + counted(plan.lines_as_sides, "line is", "lines are") +

@@ -7,6 +7,7 @@ namespace trismooth {
 
 /// Also where the build has no HDF5 and can name the format alone.
 inline constexpr FormatDescription med_description{
-    FileFormat::med, "med", "MED", {".med", ".rmed", ".mmed"}, {.arrays = true, .names = true}, 1, "HDF5"};
+    FileFormat::med, "med", "MED", {".med", ".rmed", ".mmed"}, {.arrays = true, .names = true, .units = true}, 1,
+    "HDF5"};
 
 }  // namespace trismooth

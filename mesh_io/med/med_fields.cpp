@@ -12,7 +12,9 @@
 #include <utility>
 
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/free_names.h"
+#include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
 
 namespace trismooth {
@@ -51,6 +53,10 @@ class MedFieldsReader {
           "Fields that have no numbers at all nodes, or at all elements of a type, are kept in MED output only: " +
           list_text(kept_) + ".");
     }
+    if (!with_units_.empty()) {
+      fields_.notes.push_back(
+          "Units that differ from component to component are kept in MED output only: " + list_text(with_units_) + ".");
+    }
     return std::move(fields_);
   }
 
@@ -63,8 +69,41 @@ class MedFieldsReader {
     return names.size() == 1 && names.front() == mesh_;
   }
 
+  /// The unit of all components; empty: none, or several, which no array has.
+  std::string unit_of_field(const std::string& name, const std::string& field) {
+    if (!file_.has_attribute(field, "UNI") || !file_.has_attribute(field, "NCO")) {
+      return {};
+    }
+    std::string texts = list_text(file_.read_attribute_texts(field, "UNI"), {}, "");
+    const std::vector<std::int64_t> components = file_.read_attribute<std::int64_t>(field, "NCO");
+    std::set<std::string> units;
+    const std::int64_t count = components.size() == 1 ? std::min<std::int64_t>(components[0], most_components) : 0;
+    for (std::int64_t i = 0; i < count; ++i) {
+      texts.resize(std::max(texts.size(), med_component_size), ' ');
+      units.emplace(trimmed(std::string_view(texts).substr(0, med_component_size)));
+      texts.erase(0, med_component_size);
+    }
+    if (units.size() > 1) {
+      with_units_.insert(name);
+    }
+    return units.size() == 1 ? *units.begin() : std::string();
+  }
+
   void read_field(const std::string& name) {
     const std::string field = "/CHA/" + name;
+    const std::size_t point_arrays = fields_.point_arrays.size();
+    const std::size_t cell_arrays = fields_.cell_arrays.size();
+    read_steps(name, field);
+    const std::string unit = unit_of_field(name, field);
+    for (DataArray& array : std::span(fields_.point_arrays).subspan(point_arrays)) {
+      set_unit(array, unit);
+    }
+    for (DataArray& array : std::span(fields_.cell_arrays).subspan(cell_arrays)) {
+      set_unit(array, unit);
+    }
+  }
+
+  void read_steps(const std::string& name, const std::string& field) {
     const std::vector<Hdf5Member> steps = file_.members(field);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const std::string step = field + "/" + steps[i].name;
@@ -198,6 +237,7 @@ class MedFieldsReader {
   FreeNames names_;
   FreeNames cell_names_;
   std::set<std::string> kept_;
+  std::set<std::string> with_units_;  ///< of several kinds
   MedFields fields_;
 };
 

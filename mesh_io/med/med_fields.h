@@ -13,6 +13,9 @@
 
 namespace trismooth {
 
+/// Characters of the name of a component of a field, and of its unit.
+inline constexpr std::size_t med_component_size = 16;
+
 /// Instead of a list of nodes or elements: all.
 inline constexpr std::string_view med_all_entities = "MED_NO_PROFILE_INTERNAL";
 

@@ -13,6 +13,7 @@
 
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/document/array_components.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/format_losses.h"
 #include "trismooth/mesh_io/hdf5/hdf5_writer.h"
 #include "trismooth/mesh_io/med/med_arrays.h"
@@ -90,9 +91,8 @@ class MedWriter {
     set_text(mesh, "UNT", "");
     std::string names;
     for (std::int64_t axis = 0; axis < axes_; ++axis) {
-      constexpr std::size_t name_size = 16;
       std::string name(1, static_cast<char>('X' + axis));
-      name.resize(name_size, ' ');
+      name.resize(med_component_size, ' ');
       names += name;
     }
     set_text(mesh, "NOM", names);
@@ -219,17 +219,22 @@ class MedWriter {
     const std::string group = "/CHA/" + field.name;
     set(group, {{"NCO", static_cast<std::int64_t>(array.components)}, {"TYP", number}});
     set_text(group, "MAI", mesh_name_);
-    constexpr std::size_t name_size = 16;
     std::string names;
     for (std::size_t i = 0; i < array.components; ++i) {
       const ArrayDescription* const description = array.description.get();
       const bool has_name = description != nullptr && i < description->component_names.size();
       std::string name = has_name ? description->component_names[i] : std::string();
-      name.resize(name_size, ' ');
+      name.resize(med_component_size, ' ');
       names += name;
     }
     set_text(group, "NOM", names);
-    set_text(group, "UNI", std::string(name_size * array.components, ' '));
+    std::string unit = unit_of(array);
+    unit.resize(med_component_size, ' ');
+    std::string units;
+    for (std::size_t i = 0; i < array.components; ++i) {
+      units += unit;
+    }
+    set_text(group, "UNI", units);
     set_text(group, "UNT", "");
     const std::string step = group + "/-0000000000000000001-0000000000000000001";
     set(step, {{"NDT", no_step}, {"NOR", no_step}, {"RDT", no_step}, {"ROR", no_step}});
@@ -297,6 +302,19 @@ std::vector<std::string> lost_in_med(const MeshDocument& document) {
   if (const MedFieldPlan plan = plan_med_fields(document, families.arrays); !plan.renamed.empty()) {
     sentences.push_back("MED has names of fields of " + std::to_string(med_field_name_size) +
                         " characters at most, each once and without slashes: changed are " + list_text(plan.renamed));
+  }
+  std::ranges::move(describe_widened("MED", document, families.arrays), std::back_inserter(sentences));
+  std::string cut;
+  for (const auto* const arrays : {&document.point_arrays, &document.cell_arrays}) {
+    for (const DataArray& array : *arrays) {
+      if (unit_of(array).size() > med_component_size) {
+        add_to_list(cut, shown_name(array));
+      }
+    }
+  }
+  if (!cut.empty()) {
+    sentences.push_back("MED has units of " + std::to_string(med_component_size) +
+                        " characters at most: cut off are those of " + cut);
   }
   if (!families.renamed.empty()) {
     sentences.push_back("MED has names of groups of " + std::to_string(med_group_name_size) +

@@ -214,22 +214,6 @@ class MshWriter {
   std::vector<std::int32_t> written_;  ///< cells
 };
 
-/// Whether a double holds every number of the array.
-bool is_exact_in_msh(const DataArray& array) {
-  if (array.type != ScalarType::int64 && array.type != ScalarType::uint64) {
-    return true;
-  }
-  constexpr double most = 9007199254740992.0;  // 2^53
-  for (std::size_t row = 0; row < array.rows(); ++row) {
-    for (std::size_t k = 0; k < array.components; ++k) {
-      if (!(std::abs(array.value(row, k)) < most)) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 void write_msh(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
@@ -247,7 +231,7 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
   std::vector<std::string> sentences = describe_lost_cells("MSH", "elements of Gmsh", {}, lost_cells);
   std::vector<DataArray> padded;
   std::vector<DataArray> refused;
-  std::vector<DataArray> rounded;
+  std::vector<const DataArray*> held;
   const auto sort = [&](const std::vector<DataArray>& arrays, bool of_cells) {
     for (const DataArray& array : arrays) {
       if (of_cells && is_of_entities(array, plan)) {
@@ -259,8 +243,8 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
       } else if (components != array.components) {
         padded.push_back(array);
       }
-      if (components != 0 && !is_exact_in_msh(array)) {
-        rounded.push_back(array);
+      if (components != 0) {
+        held.push_back(&array);
       }
     }
   };
@@ -273,10 +257,7 @@ std::vector<std::string> lost_in_msh(const MeshDocument& document) {
     sentences.push_back("MSH holds fields of 1, 3 or 9 numbers: " + array_names(padded) +
                         (padded.size() == 1 ? " gets" : " get") + " a third one, 0");
   }
-  if (!rounded.empty()) {
-    sentences.push_back("MSH holds fields of floating point: " + array_names(rounded) +
-                        (rounded.size() == 1 ? " is rounded" : " are rounded"));
-  }
+  std::ranges::move(describe_rounded("MSH", "fields of floating point", held), std::back_inserter(sentences));
   if (!plan.renamed.empty()) {
     sentences.push_back("MSH holds names without quotation marks: changed are " + list_text(plan.renamed));
   }

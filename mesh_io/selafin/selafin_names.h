@@ -2,11 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <string_view>
-#include <utility>
-
-#include "trismooth/mesh_io/data_array.h"
 
 namespace trismooth {
 
@@ -16,11 +12,6 @@ inline constexpr std::size_t selafin_unit_size = 16;
 
 /// The variable that has the elevation of the bottom.
 inline constexpr std::string_view selafin_bottom = "BOTTOM";
-
-/// What VTK calls the unit of an array, which other formats keep.
-inline ArrayInformation selafin_unit(std::string unit) {
-  return {"UNITS_LABEL", "vtkDataArray", {std::move(unit)}};
-}
 
 /// Whether a variable says something of the place, whatever runs over it: in TELEMAC's English and French.
 inline bool is_selafin_place_value(std::string_view name) {

@@ -13,8 +13,10 @@
 
 #include "trismooth/base/text/digits.h"
 #include "trismooth/base/text/plain_name.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/cells/uniform_cells.h"
 #include "trismooth/mesh_io/document/free_names.h"
+#include "trismooth/mesh_io/document/last_step.h"
 #include "trismooth/mesh_io/document/number_sites.h"
 #include "trismooth/mesh_io/document/patched_original.h"
 #include "trismooth/mesh_io/document/point_ids.h"
@@ -194,9 +196,7 @@ class SelafinReader {
       add_array(i, values[i], steps == 1);
     }
     if (steps > 1 && !values.empty()) {
-      document_.notes.push_back("Values at nodes are those of the last of " + std::to_string(steps) +
-                                " time steps, t = " + shortest_text(time) +
-                                "; SELAFIN output keeps those of all steps as they were read.");
+      document_.notes.push_back(note_of_last_step("Values at nodes", steps, time, "SELAFIN"));
     }
   }
 
@@ -208,11 +208,7 @@ class SelafinReader {
                       [&](std::size_t i, double value) { numbers[i] = static_cast<decltype(zero)>(value); });
       document_.point_arrays.push_back(make_data_array(names_[variable], 1, std::move(numbers)));
     });
-    if (!units_[variable].empty()) {
-      ArrayDescription description;
-      description.information.push_back(selafin_unit(units_[variable]));
-      document_.point_arrays.back().description = std::make_shared<const ArrayDescription>(std::move(description));
-    }
+    set_unit(document_.point_arrays.back(), units_[variable]);
     if (is_only_step) {
       add_sites(record, type, {names_[variable], 0});
     }

@@ -17,6 +17,7 @@
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/buffered_writer.h"
 #include "trismooth/mesh_io/bytes/byte_order.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/cells/boundary_edges.h"
 #include "trismooth/mesh_io/document/flat_points.h"
 #include "trismooth/mesh_io/document/format_losses.h"
@@ -88,17 +89,6 @@ Variables variables_of(const MeshDocument& document) {
     }
   }
   return variables;
-}
-
-std::string unit_of(const DataArray& array) {
-  if (array.description != nullptr) {
-    for (const ArrayInformation& information : array.description->information) {
-      if (information.name == selafin_unit({}).name && information.values.size() == 1) {
-        return information.values.front();
-      }
-    }
-  }
-  return {};
 }
 
 CellList triangles_of(const CellList& cells) {
@@ -295,14 +285,17 @@ std::vector<std::string> lost_in_selafin(const MeshDocument& document) {
                         " characters at most: changed are " + list_text(variables.renamed));
   }
   std::string whole;
+  std::vector<const DataArray*> rounded;
   for (const DataArray& array : document.point_arrays) {
     if (array.type != ScalarType::float32 && array.type != ScalarType::float64) {
       add_to_list(whole, shown_name(array));
+      rounded.push_back(&array);
     }
   }
   if (!whole.empty()) {
     sentences.push_back("SELAFIN has real numbers at nodes: the whole ones of " + whole + " are written as such");
   }
+  std::ranges::move(describe_rounded("SELAFIN", "real numbers", rounded), std::back_inserter(sentences));
   return sentences;
 }
 

@@ -9,6 +9,7 @@
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/hdf5_signature.h"
 #include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/cells/other_cells.h"
 #include "trismooth/mesh_io/document/flat_points.h"
 #include "trismooth/mesh_io/document/format_losses.h"
@@ -16,6 +17,7 @@
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/netcdf/netcdf_header.h"
 #include "trismooth/mesh_io/netcdf/netcdf_writer.h"
+#include "trismooth/mesh_io/text/text_scanner.h"
 #include "trismooth/mesh_io/ugrid/ugrid_reader.h"
 
 namespace trismooth {
@@ -33,12 +35,50 @@ bool is_written(const DataArray& array) {
   return array.components == 1 && (array.type == ScalarType::float32 || array.type == ScalarType::float64);
 }
 
-/// A name as netCDF has it: of letters, digits and '_', which all programs take, no two alike.
+/// A name as netCDF has it: it begins with a letter or '_', and has no blanks and slashes; no two alike.
 std::string ugrid_name(std::string name, FreeNames& names) {
   std::ranges::replace_if(
       name, [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '/' || c == '\x7f'; }, '_');
   const bool begins_well = !name.empty() && (('A' <= (name[0] & ~0x20) && (name[0] & ~0x20) <= 'Z') || name[0] == '_');
   return names.claim(begins_well ? name : "values_" + name);
+}
+
+/// An array as a variable.
+struct UgridVariable {
+  const DataArray* array;  ///< of the document
+  std::string name;
+  bool is_at_nodes;
+};
+
+/// The arrays that are written, no two of a name, and none of that of another variable.
+std::vector<UgridVariable> ugrid_variables(const MeshDocument& document) {
+  FreeNames taken;
+  for (const char* const name :
+       {"mesh2d", "mesh2d_node_x", "mesh2d_node_y", "mesh2d_face_nodes", "mesh2d_boundary_nodes"}) {
+    taken.take(name);
+  }
+  std::vector<UgridVariable> variables;
+  for (const auto* const arrays : {&document.point_arrays, &document.cell_arrays}) {
+    for (const DataArray& array : *arrays) {
+      if (is_written(array)) {
+        variables.push_back({&array, ugrid_name(array.name, taken), arrays == &document.point_arrays});
+      }
+    }
+  }
+  return variables;
+}
+
+/// The name and the unit stay beside the variable.
+std::vector<NetcdfAttribute> attributes_of(const UgridVariable& variable) {
+  std::vector<NetcdfAttribute> attributes{{"mesh", "mesh2d", {}},
+                                          {"location", variable.is_at_nodes ? "node" : "face", {}}};
+  if (variable.name != variable.array->name) {
+    attributes.push_back({"long_name", variable.array->name, {}});
+  }
+  if (std::string unit = unit_of(*variable.array); !unit.empty()) {
+    attributes.push_back({"units", std::move(unit), {}});
+  }
+  return attributes;
 }
 
 void write_ugrid(const std::filesystem::path& path, const MeshDocument& document, const FileWorkers& workers) {
@@ -101,23 +141,17 @@ void write_ugrid(const std::filesystem::path& path, const MeshDocument& document
                       [&cells, &lines](std::size_t i) { return cells[static_cast<std::size_t>(lines[i / 2])][i % 2]; },
                       {{"cf_role", "boundary_node_connectivity", {}}, {"start_index", "", {0}}});
   }
-  FreeNames taken;
-  for (const char* const name :
-       {"mesh2d", "mesh2d_node_x", "mesh2d_node_y", "mesh2d_face_nodes", "mesh2d_boundary_nodes"}) {
-    taken.take(name);
-  }
-  for (const DataArray& array : document.point_arrays) {
-    if (is_written(array)) {
-      file.add_variable(ugrid_name(array.name, taken), {nodes_dimension},
-                        [&array](std::size_t i) { return array.value(i); },
-                        {{"mesh", "mesh2d", {}}, {"location", "node", {}}});
-    }
-  }
-  for (const DataArray& array : document.cell_arrays) {
-    if (is_written(array)) {
-      file.add_variable(ugrid_name(array.name, taken), {faces_dimension},
-                        [&array, &faces](std::size_t i) { return array.value(static_cast<std::size_t>(faces[i])); },
-                        {{"mesh", "mesh2d", {}}, {"location", "face", {}}});
+  for (const UgridVariable& variable : ugrid_variables(document)) {
+    const DataArray& array = *variable.array;
+    if (variable.is_at_nodes) {
+      file.add_variable(
+          variable.name, {nodes_dimension}, [&array](std::size_t i) { return array.value(i); },
+          attributes_of(variable));
+    } else {
+      file.add_variable(
+          variable.name, {faces_dimension},
+          [&array, &faces](std::size_t i) { return array.value(static_cast<std::size_t>(faces[i])); },
+          attributes_of(variable));
     }
   }
   file.write(path, workers);
@@ -144,6 +178,17 @@ std::vector<std::string> lost_in_ugrid(const MeshDocument& document) {
   }
   if (!arrays.empty()) {
     sentences.push_back("UGRID gets arrays of real numbers, one a point or face: not written are " + arrays);
+  }
+  std::string renamed;
+  for (const UgridVariable& variable : ugrid_variables(document)) {
+    if (variable.name != variable.array->name) {
+      add_to_list(renamed, trismooth::quoted(variable.array->name) + " (as " + variable.name + ")");
+    }
+  }
+  if (!renamed.empty()) {
+    sentences.push_back(
+        "UGRID has names of variables without blanks and slashes that begin with a letter, each once: changed are " +
+        renamed);
   }
   std::ranges::move(describe_lost_field_arrays("UGRID", document), std::back_inserter(sentences));
   std::ranges::move(describe_lost_sets("UGRID", document), std::back_inserter(sentences));

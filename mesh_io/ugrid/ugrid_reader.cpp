@@ -16,6 +16,7 @@
 
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/document/integer_array.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/netcdf/netcdf_file.h"
@@ -272,7 +273,10 @@ class UgridReader {
       sites_.push_back({&variable, {}, {variable.name, 0}});
     } else if (is_whole(variable.type)) {
       document_.point_arrays.push_back(make_integer_array(variable.name, file_.values<std::int64_t>(variable)));
+    } else {
+      return;
     }
+    set_unit(document_.point_arrays.back(), std::string(variable.text_of("units")));
   }
 
   /// Lines have no such value: 0, or no number. Where these take many times the memory of the file, as with very many
@@ -293,7 +297,10 @@ class UgridReader {
       std::vector<std::int64_t> values = file_.values<std::int64_t>(variable);
       values.resize(cells);
       document_.cell_arrays.push_back(make_integer_array(variable.name, std::move(values)));
+    } else {
+      return;
     }
+    set_unit(document_.cell_arrays.back(), std::string(variable.text_of("units")));
   }
 
   bool is_derived(const NetcdfVariable& variable) const {

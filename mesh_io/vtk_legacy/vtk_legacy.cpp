@@ -161,11 +161,14 @@ bool is_vtk_legacy(std::string_view bytes) {
 
 }  // namespace
 
-const Codec vtk_legacy_codec{
-    {FileFormat::vtk, "vtk", "legacy VTK", {".vtk"}, {.arrays = true, .strips = true, .cells_of_any_order = true}},
-    &read,
-    &write_vtk_legacy,
-    &lost_in_vtk_legacy,
-    &is_vtk_legacy};
+const Codec vtk_legacy_codec{{FileFormat::vtk,
+                              "vtk",
+                              "legacy VTK",
+                              {".vtk"},
+                              {.arrays = true, .units = true, .strips = true, .cells_of_any_order = true}},
+                             &read,
+                             &write_vtk_legacy,
+                             &lost_in_vtk_legacy,
+                             &is_vtk_legacy};
 
 }  // namespace trismooth

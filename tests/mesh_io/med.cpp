@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/hdf5/hdf5_reader.h"
 #include "trismooth/mesh_io/mesh_file.h"
 
@@ -260,18 +261,27 @@ TEST_CASE("MED: point and cell arrays are fields, and come back as they were") {
   document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
   document.point_arrays = {make_data_array("heat", 1, std::vector<float>{0, 1, 2, 3, 4.5F}),
                            make_data_array("flow/in", 2, std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9})};
+  constexpr std::uint64_t large = 9007199254740993;  // 2^53 + 1
   document.cell_arrays = {make_data_array("heat", 1, std::vector<double>{7, 8, 9}),
-                          make_data_array("count", 1, std::vector<std::uint8_t>{3, 2, 1})};
+                          make_data_array("count", 1, std::vector<std::uint8_t>{3, 2, 1}),
+                          make_data_array("id", 1, std::vector<std::uint64_t>{large, 2, 3}),
+                          make_data_array("key", 1, std::vector<std::uint64_t>{~std::uint64_t{0}, 2, 3})};
+  set_unit(document.point_arrays[1], "m/s");
   const MeshDocument again = med.read(med.written(document));
   CHECK(again.cells.types == std::vector<std::uint8_t>{cell_type::line, 5, 9});
   CHECK(values_of<double>(again.point_arrays, "heat") == std::vector<double>{0, 1, 2, 3, 4.5});
   CHECK(values_of<double>(again.point_arrays, "flow_in") == std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
   CHECK(values_of<double>(again.cell_arrays, "heat") == std::vector<double>{9, 8, 7});
   CHECK(values_of<std::int32_t>(again.cell_arrays, "count") == std::vector<std::int32_t>{1, 2, 3});
+  CHECK(values_of<std::int64_t>(again.cell_arrays, "id") == std::vector<std::int64_t>{3, 2, std::int64_t{large}});
+  CHECK(unit_of(*find_array(again.point_arrays, "flow_in")) == "m/s");
+  CHECK(unit_of(*find_array(again.point_arrays, "heat")).empty());
   CHECK(again.notes.empty());
   CHECK(writes_values_of(again, FileFormat::med, "heat"));
   const std::vector<std::string> lost = what_is_lost(document, FileFormat::med);
-  REQUIRE(lost.size() == 2);
+  REQUIRE(lost.size() == 3);
+  CHECK(lost[1] == "MED holds whole numbers below 2^63: key is rounded");
+  CHECK(says(what_is_lost(document, FileFormat::cgns).at(0), "CGNS holds whole numbers below 2^63: key is rounded"));
   CHECK(says(lost[0],
              "names of fields of 64 characters at most, each once and without slashes: changed are 'flow/in' "
              "(as flow_in)"));

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "trismooth/mesh_io/codec.h"
+#include "trismooth/mesh_io/document/array_description.h"
 #include "trismooth/mesh_io/mesh_file.h"
 
 #include "catch.h"
@@ -118,14 +120,22 @@ TEST_CASE("UGRID: faces, boundary edges and real numbers are written, and come b
   document.point_arrays = {make_data_array("depth of water", 1, std::vector<double>{1, 2, 3, 4, 5}),
                            make_data_array("wind", 2, std::vector<double>(10))};
   document.cell_arrays = {make_data_array("region", 1, std::vector<std::int32_t>{1, 2, 3})};
-  const MeshDocument read = ugrid.read(ugrid.written(document));
+  set_unit(document.point_arrays[0], "m");
+  const std::string bytes = ugrid.written(document);
+  CHECK(says(bytes, "depth of water"));
+  const MeshDocument read = ugrid.read(bytes);
+  CHECK(unit_of(read.point_arrays[0]) == "m");
   CHECK(read.points == document.points);
   CHECK(read.cells.types == std::vector<std::uint8_t>{9, 5, 3});
   CHECK(values_of<double>(read.point_arrays, "depth_of_water") == std::vector<double>{1, 2, 3, 4, 5});
   CHECK(
       what_is_lost(document, FileFormat::ugrid) ==
       std::vector<std::string>{"UGRID lists cells by their type: they are written in another order",
-                               "UGRID gets arrays of real numbers, one a point or face: not written are wind, region"});
+                               "UGRID gets arrays of real numbers, one a point or face: not written are wind, region",
+                               "UGRID has names of variables without blanks and slashes that begin with a letter, each "
+                               "once: changed are 'depth of water' (as depth_of_water)"});
+  const std::vector<std::string> lost = what_is_lost(document, FileFormat::exodus);
+  CHECK(std::ranges::count(lost, "Exodus II holds no units: those of depth of water are not written") == 1);
 }
 
 }  // namespace trismooth::ugrid_test
