@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "trismooth/mesh_io/bytes/shared_blocks.h"
 #include "trismooth/mesh_io/bytes/shared_resize.h"
 #include "trismooth/mesh_io/document/free_names.h"
+#include "trismooth/mesh_io/document/last_step.h"
 #include "trismooth/mesh_io/document/point_ids.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/exodus/exodus_blocks.h"
@@ -218,13 +220,12 @@ class ExodusReader {
       return;
     }
     if (steps_ > 1) {
-      std::string time;
+      std::optional<double> time;
       if (const NetcdfVariable* const times = file_.find("time_whole");
           times != nullptr && is_real(times->type) && times->shape == std::vector{steps_}) {
-        time = ", t = " + shortest_text(file_.values<double>(*times).back());
+        time = file_.values<double>(*times).back();
       }
-      document_.notes.push_back("Values at nodes and elements are those of the last of " + std::to_string(steps_) +
-                                " time steps" + time + "; Exodus output keeps those of all steps as they were read.");
+      document_.notes.push_back(note_of_last_step("Values at nodes and elements", steps_, time, "Exodus"));
     }
     if (!displacements_.empty()) {
       document_.notes.push_back(

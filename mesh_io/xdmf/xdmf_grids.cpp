@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "trismooth/mesh_io/errors.h"
+#include "trismooth/mesh_io/text/number_text.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
 
 namespace trismooth {
@@ -82,9 +83,21 @@ class GridFinder {
     return grid;
   }
 
+  std::optional<double> time_of(const XmlElement& step) {
+    for (const XmlElement* const child : paths_.children_of(step)) {
+      if (child->name == "Time") {
+        return parse_number<double>(xdmf_attribute(*child, "Value"));
+      }
+    }
+    return std::nullopt;
+  }
+
   void add_steps(const XmlElement& collection, std::vector<XdmfGrid>& grids, XdmfGrids& all, int depth) {
     const XmlElements steps = grids_of(collection);
-    all.steps = std::max(all.steps, steps.size());
+    if (steps.size() > all.steps) {
+      all.steps = steps.size();
+      all.time = time_of(referred(*steps.back()));
+    }
     const std::size_t begin = grids.size();
     for (std::size_t i = 0; i < steps.size(); ++i) {
       if (i == 0) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +27,9 @@ struct XdmfGrids {
   std::vector<XdmfGrid> first;  ///< of the first time step where there are several
   /// Grids of later steps, each with the place in `first` of the one that it must be.
   std::vector<std::pair<std::size_t, XdmfGrid>> later;
-  std::size_t steps = 1;    ///< of the longest collection in time
-  std::size_t domains = 1;  ///< whose first one has the grids
+  std::size_t steps = 1;         ///< of the longest collection in time
+  std::optional<double> time{};  ///< of the last of these
+  std::size_t domains = 1;       ///< whose first one has the grids
 };
 
 /// Finds the grids of the first domain, in the file's order, those of collections and trees one by one. Throws

@@ -245,6 +245,7 @@ XdmfItem XdmfItems::find(const XmlElement& element) {
     item.begin = at->content_begin;
     item.end = at->content_end;
     item.key = "x" + std::to_string(item.begin);
+    item.is_untyped = type.empty();
     // Text has the digits that it has: DOLFINx writes 16 of them, and no Precision.
     if (precision.empty() && item.type == ScalarType::float32) {
       item.type = ScalarType::float64;

@@ -54,6 +54,7 @@ struct XdmfItem {
   std::uint64_t begin = 0;           ///< bytes of the text, or of the binary file
   std::uint64_t end = 0;             ///< of the text
   bool is_big_endian = false;        ///< in the binary file
+  bool is_untyped = false;           ///< text that tells no type, which XDMF takes for real numbers
   std::string key{};                 ///< the same for the same numbers
 
   std::uint64_t count() const;

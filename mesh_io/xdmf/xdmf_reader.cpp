@@ -8,14 +8,18 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "trismooth/base/text/counted.h"
+#include "trismooth/base/text/list_text.h"
 #include "trismooth/mesh_io/annotation_names.h"
 #include "trismooth/mesh_io/document/array_limits.h"
+#include "trismooth/mesh_io/document/integer_array.h"
+#include "trismooth/mesh_io/document/last_step.h"
 #include "trismooth/mesh_io/document/member_budget.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/text_scanner.h"
@@ -78,8 +82,14 @@ class XdmfReader {
     for (const XdmfGrid& grid : grids.first) {
       add_grid(grid);
     }
+    std::vector<std::vector<const XdmfGrid*>> steps(grids.first.size());
     for (const auto& [first, later] : grids.later) {
       require_same(grids.first[first], later);
+      steps[first].push_back(&later);
+    }
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      steps[i].insert(steps[i].begin(), &grids.first[i]);
+      add_attributes(steps[i]);
     }
     finish(grids);
     return std::move(document_);
@@ -258,15 +268,27 @@ class XdmfReader {
   void add_grid(const XdmfGrid& grid) {
     const std::size_t block = block_of(*grid.geometry);
     const Part& part = part_of(*grid.topology, block);
-    for (const XmlElement* const attribute : grid.attributes) {
-      if (seen_.emplace(std::pair(attribute, part.number), true).second) {
-        add_attribute(*attribute, part);
-      }
-    }
     for (const XmlElement* const set : grid.sets) {
       if (seen_.emplace(std::pair(set, part.number), true).second) {
         add_set(*set, part);
       }
+    }
+  }
+
+  /// Those of the last step, and of steps before it what none behind them has: tags, say, that the first one has alone.
+  void add_attributes(const std::vector<const XdmfGrid*>& steps) {
+    const Part& part = part_of(*steps.front()->topology, block_of(*steps.front()->geometry));
+    std::set<std::string> names;
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+      std::set<std::string> own;
+      for (const XmlElement* const attribute : (*step)->attributes) {
+        const std::string name = name_of(*attribute);
+        own.insert(name);
+        if (!names.contains(name) && seen_.emplace(std::pair(attribute, part.number), true).second) {
+          add_attribute(*attribute, part);
+        }
+      }
+      names.merge(own);
     }
   }
 
@@ -303,6 +325,12 @@ class XdmfReader {
       return;
     }
     DataArray array = items_.read_array(item, name, static_cast<std::size_t>(components));
+    if (item.is_untyped && center == "CELL" && components == 1) {
+      if (auto whole = whole_numbers(array)) {
+        array = make_integer_array(name, std::move(*whole));
+        guessed_.insert(name);
+      }
+    }
     if (center == "GRID") {
       document_.field_arrays.push_back(std::move(array));
     } else if (is_of_points) {
@@ -311,6 +339,20 @@ class XdmfReader {
       cell_arrays_.add(std::move(array), part.number,
                        part.cells.empty() ? consecutive(part.first, part.count) : part.cells);
     }
+  }
+
+  /// The numbers, where all are whole.
+  static std::optional<std::vector<std::int64_t>> whole_numbers(const DataArray& array) {
+    std::vector<std::int64_t> whole;
+    for (std::size_t row = 0; row < array.rows(); ++row) {
+      constexpr double most = 9007199254740992.0;  // 2^53
+      const double value = array.value(row);
+      if (!(std::abs(value) <= most) || value != std::floor(value)) {
+        return std::nullopt;
+      }
+      whole.push_back(static_cast<std::int64_t>(value));
+    }
+    return whole;
   }
 
   /// Empty where they begin at 0.
@@ -454,8 +496,13 @@ class XdmfReader {
           " grids with points of their own, which are read as one mesh: where they meet they are not joined");
     }
     if (grids.steps > 1) {
-      notes.push_back("the file has " + std::to_string(grids.steps) +
-                      " time steps: fields are read of the first; all stay in a file of the same format");
+      notes.push_back(note_of_last_step("Values", grids.steps, grids.time, "XDMF"));
+    }
+    if (!guessed_.empty()) {
+      constexpr std::size_t most = 8;
+      notes.push_back(
+          "Numbers of cells that are all whole and tell no NumberType are read as whole ones, as tags are: " +
+          first_of_list(guessed_, most) + "; NumberType=\"Float\" in the file makes them real numbers.");
     }
     if (!kept_alone_.empty()) {
       std::string names;
@@ -490,6 +537,7 @@ class XdmfReader {
   XdmfArrays point_arrays_;
   XdmfArrays cell_arrays_;
   std::vector<std::string> kept_alone_;
+  std::set<std::string> guessed_;  ///< arrays of whole numbers that the file does not call so
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace trismooth {
 
 /// Reads an XDMF file, and the files beside it that it refers to. Grids over the same points are one mesh: cells that a
 /// later grid has again (tags of dolfinx) are not added, and its arrays go to the cells that are there. Of time steps
-/// the first one is read; points and cells of the others must be the same. Throws ReadError.
+/// the values of the last one are read; points and cells of all must be the same. Throws ReadError.
 MeshDocument read_xdmf(const std::filesystem::path& path, FileBytes bytes, const FileWorkers& workers);
 
 }  // namespace trismooth

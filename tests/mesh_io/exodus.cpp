@@ -180,8 +180,8 @@ TEST_CASE(
   CHECK(flux[1] == 3);
   REQUIRE(document.notes.size() == 2);
   CHECK(document.notes[0] ==
-        "Values at nodes and elements are those of the last of 3 time steps, t = 1; Exodus output keeps those of all "
-        "steps as they were read.");
+        "Values at nodes and elements are those of the last of 3 time steps, t = 1 (for another one, write it to a "
+        "file of its own); Exodus output keeps those of all steps as they were read.");
   CHECK(document.notes[1] == "The mesh is the one without displacements, which are values at nodes: disp_x.");
   CHECK_FALSE(writes_values_of(document, FileFormat::exodus, "disp_x"));
 

@@ -130,6 +130,20 @@ TEST_CASE("XDMF: tags of faces and of sides are groups of both in other formats,
   }
 }
 
+TEST_CASE("XDMF: whole numbers of cells in the text that tell no type are tags, which a note says") {
+  const auto untyped = [](std::string text) {
+    return text.erase(text.find(" NumberType"), std::string_view(" NumberType=\"Int\"").size());
+  };
+  const MeshDocument document = xdmf.read(
+      file(grid(two_triangles + points() + untyped(attribute("tags", "Cell", "2 1", "7 9")) +
+                untyped(attribute("heat", "Cell", "2 1", "7 9.5")) + untyped(attribute("u", "Node", "4", "1 2 3 4")))));
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "tags") == std::vector<std::int32_t>{7, 9});
+  CHECK(values_of<double>(document.cell_arrays, "heat") == std::vector<double>{7, 9.5});
+  CHECK(values_of<double>(document.point_arrays, "u") == std::vector<double>{1, 2, 3, 4});
+  REQUIRE(document.notes.size() == 1);
+  CHECK(says(document.notes[0], "are read as whole ones, as tags are: tags; NumberType=\"Float\" in the file"));
+}
+
 TEST_CASE("XDMF: grids with points of their own are one mesh, and a note says so") {
   const std::string triangle = topology("Triangle", "1 3", "0 1 2");
   const MeshDocument document =
@@ -142,16 +156,22 @@ TEST_CASE("XDMF: grids with points of their own are one mesh, and a note says so
   CHECK(says(document.notes[0], "2 grids with points of their own"));
 }
 
-TEST_CASE("XDMF: of time steps the first is read, and points that move are refused") {
-  const auto steps = [](std::string_view second) {
-    return file(grid(grid(two_triangles + points() + attribute("u", "Node", "4", "1 2 3 4")) + grid(second),
+TEST_CASE("XDMF: of time steps the last is read, which a note says, and points that move are refused") {
+  const auto steps = [](const std::string& second) {
+    const std::string first = two_triangles + points() + attribute("u", "Node", "4", "1 2 3 4");
+    return file(grid(grid(first + attribute("material", "Cell", "2", "5 6")) + grid(second + "<Time Value=\"0.5\"/>"),
                      R"(GridType="Collection" CollectionType="Temporal")"));
   };
   // Each step may have the numbers once more: both are written back.
   const std::string again = steps(two_triangles + points("0 0 1 0 1 1 0 1.0") + attribute("u", "Node", "4", "9 9 9 9"));
   MeshDocument document = xdmf.read(again);
-  CHECK(values_of<std::int32_t>(document.point_arrays, "u") == std::vector<std::int32_t>{1, 2, 3, 4});
-  CHECK(says(document.notes.at(0), "2 time steps"));
+  CHECK(values_of<std::int32_t>(document.point_arrays, "u") == std::vector<std::int32_t>{9, 9, 9, 9});
+  CHECK(document.point_arrays.size() == 1);
+  // What the first step alone has.
+  CHECK(values_of<std::int32_t>(document.cell_arrays, "material") == std::vector<std::int32_t>{5, 6});
+  CHECK(document.notes == std::vector<std::string>{
+                              "Values are those of the last of 2 time steps, t = 0.5 (for another one, write it to a "
+                              "file of its own); XDMF output keeps those of all steps as they were read."});
   CHECK(xdmf.written(document) == again);
   document.points[10] = 0.75;
   const std::string written = xdmf.written(document);
