@@ -184,10 +184,10 @@ class Planner {
     for (const auto& [is_further, rank, number, type, group, block] : order) {
       const std::vector<std::size_t>& of_group = of_groups.at({cell_type::dimension(type), group});
       blocks[block].id = ids.claim(is_further ? 0 : number);
-      blocks[block].region = blocks[of_group.front()].id;
       if (group < 0) {
         continue;
       }
+      blocks[block].region = blocks[of_group.front()].id;
       const std::string& name = groups_.groups[static_cast<std::size_t>(group)].name;
       if (!is_further) {
         note_number(number, name, blocks[block].id, plan_.renumbered_blocks);
@@ -204,7 +204,8 @@ class Planner {
     }
     for (const auto& [key, of_group] : of_groups) {
       const auto& [dimension, group] = key;
-      plan_.has_regions = plan_.has_regions || (dimension == 2 && of_group.size() > 1);
+      plan_.has_regions =
+          plan_.has_regions || (dimension == 2 && of_group.size() > 1) || (group < 0 && order.size() > 1);
       if (group >= 0 && of_group.size() > 1) {
         const CellGroup& split = groups_.groups[static_cast<std::size_t>(group)];
         plan_.split.push_back(

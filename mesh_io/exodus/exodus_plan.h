@@ -16,7 +16,7 @@ namespace trismooth {
 struct ExodusPlanBlock {
   std::int64_t id = 0;
   std::string name;
-  std::int64_t region = 0;          ///< the id of the first block of its group
+  std::int64_t region = 0;          ///< the id of the first block of its group; 0: of no group
   ExodusShape shape;                ///< without nodes: polygons
   std::vector<std::int32_t> cells;  ///< in the document's order
 };
@@ -46,7 +46,7 @@ struct ExodusPlan {
   std::vector<std::string> renumbered_sets;    ///< likewise, of side sets
   std::vector<std::string> renamed;            ///< "wall (as wall_1)"
   std::vector<std::string> split;              ///< "wall (3, 5)": groups of several blocks
-  bool has_regions = false;                    ///< some group, or what is in none, has several blocks of faces
+  bool has_regions = false;  ///< some group has several blocks of faces, or a block beside others is of none
 };
 
 /// Complexity: linear, but for n log n in the lines.

@@ -70,12 +70,16 @@ class SetReader {
     throw ReadError(file_.path(), set + " " + message);
   }
 
-  /// Blocks are regions, but for those that differ in the type of their elements alone.
+  /// Blocks are regions, but for those that differ in the type of their elements alone, and those that the property
+  /// says are none.
   void add_blocks() {
     const std::vector<std::string> keys = keys_of_blocks();
     std::map<std::string, std::size_t> places;
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       const ExodusBlock& block = blocks_[i];
+      if (without_region_.contains(block.number)) {
+        continue;
+      }
       const auto [place, is_new] =
           keys[i].empty() ? std::pair(places.end(), true) : places.try_emplace(keys[i], groups_.size());
       if (is_new) {
@@ -112,8 +116,13 @@ class SetReader {
     if (const NetcdfVariable* const property = region_property()) {
       const std::vector<std::int64_t> regions = file_.values<std::int64_t>(*property);
       for (std::size_t i = 0; i < blocks_.size(); ++i) {
-        if (is_of_faces(blocks_[i]) && blocks_[i].number <= regions.size()) {
-          keys[i] = std::to_string(regions[blocks_[i].number - 1]);
+        if (blocks_[i].number > regions.size()) {
+          continue;
+        }
+        if (const std::int64_t region = regions[blocks_[i].number - 1]; region == 0) {
+          without_region_.insert(blocks_[i].number);
+        } else if (is_of_faces(blocks_[i])) {
+          keys[i] = std::to_string(region);
         }
       }
       return keys;
@@ -373,8 +382,9 @@ class SetReader {
   MeshDocument& document_;
   const ExodusNames block_names_{file_, "eb_prop1", "eb_names"};
   bool are_joined_by_name_ = false;
-  std::vector<ListedGroup> groups_;    ///< blocks, then side sets
-  std::set<std::size_t> with_others_;  ///< places of those that have what is no cell
+  std::set<std::size_t> without_region_;  ///< numbers of blocks that are no region
+  std::vector<ListedGroup> groups_;       ///< blocks, then side sets
+  std::set<std::size_t> with_others_;     ///< places of those that have what is no cell
   std::vector<Edge> edges_;
   std::vector<NamedSet> faces_;  ///< side sets of faces of shells
   std::size_t last_of_faces_ = 0;

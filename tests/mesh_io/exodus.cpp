@@ -311,11 +311,19 @@ TEST_CASE("Exodus: a group of several types is a block of each, and numbers that
   REQUIRE(lost.size() == 3);
   CHECK(says(lost[1], "changed are 0 (all) to 1"));
   CHECK(says(lost[2], "'region' keeps together: all (1, 2)"));
-  // Cells of no group are one region as well.
+  // Faces and lines of no group come back as such.
+  document.cells.append(cell_type::line, std::vector<std::int32_t>{0, 1});
   document.cell_arrays.clear();
   const MeshDocument plain = exodus.read(exodus.written(document));
-  CHECK(values_of<std::int64_t>(plain.cell_arrays, "exodus:block") == std::vector<std::int64_t>{1, 1});
+  CHECK(plain.cells.size() == 3);
+  CHECK(find_array(plain.cell_arrays, "exodus:block") == nullptr);
   CHECK(plain.notes.empty());
+  document.cell_arrays = {make_data_array("region", 1, std::vector<std::int32_t>{7, 8, 0})};
+  document.cell_arrays[0].description =
+      std::make_shared<const ArrayDescription>(ArrayDescription{{}, {}, {{7, 2, "a"}, {8, 2, "b"}}, {}});
+  CHECK(values_of<std::int64_t>(exodus.read(exodus.written(document)).cell_arrays, "exodus:block") ==
+        std::vector<std::int64_t>{7, 8, 0});
+  document.cell_arrays.clear();
   CHECK(what_is_lost(document, FileFormat::exodus).size() == 1);
 }
 
