@@ -230,13 +230,10 @@ class ExodusWriter {
     }
   }
 
-  /// Variables of one time step; without any the file has no step.
+  /// Variables of one time step; without any the file has no step, but times, which readers ask for.
   void add_variables() {
     const bool has_nodal = !at_nodes_.empty() && document_.point_count() > 0;
     const bool has_elemental = !at_elements_.empty() && plan_.elements > 0;
-    if (!has_nodal && !has_elemental) {
-      return;
-    }
     if (has_nodal) {
       add_names("name_nod_var", file_.add_dimension("num_nod_var", at_nodes_.size()), at_nodes_);
     }
@@ -245,7 +242,7 @@ class ExodusWriter {
       add_names("name_elem_var", count, at_elements_);
       file_.add_variable("elem_var_tab", {blocks_, count}, [](std::size_t /*i*/) { return std::int32_t{1}; });
     }
-    const std::size_t step = file_.add_record_dimension("time_step");
+    const std::size_t step = file_.add_record_dimension("time_step", !has_nodal && !has_elemental);
     file_.add_variable("time_whole", {step}, [](std::size_t /*i*/) { return 0.0; });
     for (std::size_t i = 0; has_nodal && i < at_nodes_.size(); ++i) {
       file_.add_variable("vals_nod_var" + std::to_string(i + 1), {step, nodes_},

@@ -84,8 +84,8 @@ std::size_t NetcdfWriter::add_dimension(std::string name, std::size_t length) {
   return content_.dimensions.size() - 1;
 }
 
-std::size_t NetcdfWriter::add_record_dimension(std::string name) {
-  content_.dimensions.push_back({std::move(name), 1, true});
+std::size_t NetcdfWriter::add_record_dimension(std::string name, bool is_empty) {
+  content_.dimensions.push_back({std::move(name), is_empty ? 0U : 1U, true});
   return content_.dimensions.size() - 1;
 }
 
@@ -126,15 +126,15 @@ void NetcdfWriter::add_texts(std::string name, std::vector<std::size_t> dimensio
 std::size_t NetcdfWriter::values_of(const NetcdfVariable& variable) const {
   std::size_t values = 1;
   for (const std::size_t dimension : variable.dimensions) {
-    values *= content_.dimensions[dimension].length;
+    values *= content_.dimensions[dimension].is_record ? 1 : content_.dimensions[dimension].length;
   }
   return values;
 }
 
 std::string NetcdfWriter::header(char version, std::size_t begin_of_values) const {
   HeaderText text(version);
-  const auto has_records = [](const NetcdfDimension& dimension) { return dimension.is_record; };
-  text.count(std::ranges::count_if(content_.dimensions, has_records) > 0 ? 1 : 0);
+  const auto has_record = [](const NetcdfDimension& dimension) { return dimension.is_record && dimension.length > 0; };
+  text.count(std::ranges::count_if(content_.dimensions, has_record) > 0 ? 1 : 0);
   text.begin_list(10, content_.dimensions.size());
   for (const NetcdfDimension& dimension : content_.dimensions) {
     text.name(dimension.name);
@@ -176,7 +176,11 @@ void NetcdfWriter::write(const std::filesystem::path& path, const FileWorkers& w
   OrderedBlocks blocks([&writer](std::string_view bytes) { writer.write(bytes); }, workers);
   for (std::size_t i = 0; i < fills_.size(); ++i) {
     const std::size_t each = size_of(content_.variables[i].type);
-    const std::size_t values = values_of(content_.variables[i]);
+    const NetcdfVariable& variable = content_.variables[i];
+    if (variable.has_records && content_.dimensions[variable.dimensions.front()].length == 0) {
+      continue;
+    }
+    const std::size_t values = values_of(variable);
     blocks.write_rows(values, each, [&](std::size_t begin, std::size_t end, MemoryBlock& bytes) {
       fills_[i](begin, end, bytes.extend(each * (end - begin)));
     });

@@ -24,8 +24,9 @@ class NetcdfWriter {
  public:
   /// Returns its place.
   std::size_t add_dimension(std::string name, std::size_t length);
-  /// The one that grows; it has one record. Variables that have it, as their first, are added behind all others.
-  std::size_t add_record_dimension(std::string name);
+  /// The one that grows; it has one record, or none. Variables that have it, as their first, are added behind all
+  /// others.
+  std::size_t add_record_dimension(std::string name, bool is_empty);
 
   void add_attribute(std::string name, std::string text);
   void add_attribute(std::string name, NetcdfType type, double number);
@@ -62,6 +63,7 @@ class NetcdfWriter {
 
   void add(std::string name, NetcdfType type, std::vector<std::size_t> dimensions,
            std::vector<NetcdfAttribute> attributes, Fill fill);
+  /// Of a variable; of one with records, in one of these.
   std::size_t values_of(const NetcdfVariable& variable) const;
   std::string header(char version, std::size_t begin_of_values) const;
 
