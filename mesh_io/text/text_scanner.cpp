@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "trismooth/base/text/utf8.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
@@ -202,10 +203,23 @@ void require_room(const std::filesystem::path& path, std::string_view what, std:
 std::string quoted(std::string_view token) {
   constexpr std::size_t longest = 40;
   std::string text = "'";
-  for (const char c : token.substr(0, longest)) {
-    text += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7f ? '?' : c;
+  std::size_t shown = 0;
+  for (std::size_t length = 0; !token.empty() && shown < longest; token.remove_prefix(length), shown += length) {
+    const Utf8Character character = first_utf8_character(token);
+    length = std::max<std::size_t>(character.length, 1);
+    const bool is_control = character.code < 0x20 || (0x7f <= character.code && character.code < 0xa0);
+    if (character.length > 0 && !is_control) {
+      text += token.substr(0, length);
+      continue;
+    }
+    for (const char byte : token.substr(0, length)) {
+      constexpr std::string_view digits = "0123456789abcdef";
+      const auto value = static_cast<unsigned char>(byte);
+      text.append("\\x") += digits[value / 16];
+      text += digits[value % 16];
+    }
   }
-  return text + (token.size() > longest ? "...'" : "'");
+  return text + (token.empty() ? "'" : "...'");
 }
 
 }  // namespace trismooth

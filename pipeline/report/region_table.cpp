@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
+#include "trismooth/pipeline/report/printable_text.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/text/report_text.h"
 #include "trismooth/quality/text/text_columns.h"
@@ -66,10 +68,19 @@ std::vector<std::string> cells_of(const PipelineResult& result, std::size_t regi
 
 std::string short_name(const std::string& name, std::size_t most) {
   std::string text;
-  for (const char c : name) {
-    text += c >= ' ' && c <= '~' ? c : '?';
+  std::string cut;
+  std::size_t columns = 0;
+  for (std::string_view rest = name; !rest.empty();) {
+    const TextPiece piece = first_piece(rest);
+    const std::string shown = printable(piece.bytes);
+    text += shown;
+    columns += piece.is_harmless ? 1 : shown.size();
+    if (columns + 2 <= most) {
+      cut = text;
+    }
+    rest.remove_prefix(piece.bytes.size());
   }
-  return text.size() > most ? text.substr(0, most - 2) + ".." : text;
+  return columns > most ? cut + ".." : text;
 }
 
 std::string elements_of(const PipelineResult& result) {

@@ -2,11 +2,17 @@
 #include "trismooth/quality/text/text_columns.h"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace trismooth {
 
 namespace {
+
+/// Characters of a text in UTF-8, each of which takes a column.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
 
 void append_line(std::string& text, std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
@@ -20,7 +26,7 @@ TextColumns::TextColumns(std::vector<Column> columns) : columns_(std::move(colum
 
 void TextColumns::add_row(std::vector<std::string> cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    widths_[i] = std::max(widths_[i], cells[i].size());
+    widths_[i] = std::max(widths_[i], width_of(cells[i]));
   }
   rows_.push_back(std::move(cells));
 }
@@ -48,7 +54,7 @@ std::string TextColumns::text(const std::vector<Title>& titles) const {
     std::string line;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       line.append(columns_[i].gap, ' ');
-      const std::string padding(widths_[i] - cells[i].size(), ' ');
+      const std::string padding(widths_[i] - width_of(cells[i]), ' ');
       line += columns_[i].align == Align::left ? cells[i] + padding : padding + cells[i];
     }
     append_line(text, std::move(line));

@@ -150,7 +150,7 @@ TEST_CASE("OBJ: what breaks the rules is refused with its place") {
         "mesh.obj:4: expected a statement of OBJ, got '0'");
   CHECK(obj.failure_of(std::string("\x7f"
                                    "ELF\x02\0\0",
-                                   7)) == "mesh.obj:1: expected a statement of OBJ, got '?ELF??\?'");
+                                   7)) == "mesh.obj:1: expected a statement of OBJ, got '\\x7fELF\\x02\\x00\\x00'");
 }
 
 TEST_CASE("OBJ: writing back changes the coordinates that changed and no other byte") {
