@@ -18,6 +18,7 @@
 #include "trismooth/base/machine/peak_memory.h"
 #include "trismooth/base/machine/release.h"
 #include "trismooth/base/machine/stopwatch.h"
+#include "trismooth/mesh_io/document/place_values.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/mesh_io/parallel_file.h"
 #include "trismooth/mpi/overlap_smoother.h"
@@ -278,10 +279,17 @@ class PieceMesh final : public StagedMesh {
     run_.result.input.format = files_.file.piece_format;
     std::set<std::string> notes;
     std::set<std::string> losses;
+    std::set<std::string> of_places;
     for (const Piece& piece : files_.pieces) {
       notes.insert(piece.document.notes.begin(), piece.document.notes.end());
       losses.insert(piece.document.losses.begin(), piece.document.losses.end());
+      if (run_.options.single && run_.options.output) {
+        const FileFormat target = output_format(*run_.options.output, std::nullopt, run_.options.format);
+        const std::vector<std::string> names = written_place_arrays(piece.document, target);
+        of_places.insert(names.begin(), names.end());
+      }
     }
+    arrays_of_places_ = texts_of_all(of_places, *ranks_);
     // What is said of pieces is said of what one file loses.
     if (run_.options.single) {
       losses.merge(notes);

@@ -97,6 +97,8 @@ void StagedRun::smooth() {
   if (has_no_time_for_sweeps(smoothing)) {
     run_.warn("the time was up before the first sweep, so no sweep has moved anything; give --time-limit more");
   }
+  // Rings had their layers held before there was a smoothing.
+  smoothing.layers = run_.result.input.layers;
   run_.result.smoothing = std::move(smoothing);
   timed(Stage::check_after, timings.check_after, [this] { check_after(); });
 }

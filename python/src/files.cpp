@@ -9,16 +9,19 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "trismooth/base/machine/workers.h"
 #include "trismooth/mesh_io/document/cells/lagrange_cells.h"
+#include "trismooth/mesh_io/document/place_values.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/mesh_file.h"
 #include "trismooth/paper/bench_command.h"
@@ -251,7 +254,10 @@ class FileMesh {
       const nb::gil_scoped_acquire gil;
       accept(outcome);
     };
-    run(options, smooth_document);
+    const PipelineResult result = run(options, smooth_document);
+    if (result.smoothing && result.smoothing->moved_vertices > 0) {
+      remember_what_stays(result);
+    }
     return outcome;
   }
 
@@ -274,6 +280,14 @@ class FileMesh {
         if (target != document.format) {
           losses.insert(losses.end(), document.notes.begin(), document.notes.end());
         }
+        for (const std::string& name : written_place_arrays(document, target)) {
+          if (stays_.contains(name)) {
+            losses.push_back(fmt::format(
+                "'{0}' is what {1} files say of places, and its values are as they were read though vertices moved; "
+                "smooth(fields='interpolate', field_arrays=['{0}']) has it follow",
+                name, title_of(target)));
+          }
+        }
         write_mesh(path, document, {}, FileOptions{threads, told});
       }
       return texts(losses);
@@ -281,6 +295,15 @@ class FileMesh {
   }
 
  private:
+  /// A smoothing knows of no format to write to, and so not which array becomes its depths.
+  void remember_what_stays(const PipelineResult& result) {
+    for (const DataArray& array : document_.point_arrays) {
+      if (std::ranges::find(result.fields, array.name, &InterpolatedField::name) == result.fields.end()) {
+        stays_.insert(array.name);
+      }
+    }
+  }
+
   PipelineOptions pipeline_options(const nb::dict& arguments) const {
     PipelineOptions options;
     options.input = path_;
@@ -347,6 +370,7 @@ class FileMesh {
 
   std::filesystem::path path_;
   MeshDocument document_;
+  std::set<std::string> stays_;  ///< point arrays whose values are as they were read though vertices moved
   Turns turns_;
 };
 

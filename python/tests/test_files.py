@@ -113,6 +113,39 @@ def test_points_can_be_assigned_and_are_written(msh, tmp_path):
     np.testing.assert_array_equal(mesh.points, points)
 
 
+def test_values_that_become_depths_and_have_not_followed_are_told(tmp_path):
+    points, triangles = grid(12, 9)
+    lines = ["# vtk DataFile Version 3.0", "a", "ASCII", "DATASET POLYDATA", f"POINTS {len(points)} double"]
+    lines += [f"{x!r} {y!r} 0" for x, y in points.tolist()]
+    lines += [f"POLYGONS {len(triangles)} {4 * len(triangles)}", *("3 " + " ".join(map(str, t)) for t in triangles.tolist())]
+    lines += [f"POINT_DATA {len(points)}", "SCALARS temperature double 1", "LOOKUP_TABLE default"]
+    path = tmp_path / "warm.vtk"
+    path.write_text("\n".join(lines + [repr(x * x + y) for x, y in points.tolist()]) + "\n")
+    mesh = trismooth.read(path)
+    assert not any("temperature" in loss and "as they were read" in loss for loss in mesh.write(tmp_path / "before.14"))
+    mesh.smooth()
+    said = [loss for loss in mesh.write(tmp_path / "after.14") if "as they were read" in loss]
+    assert len(said) == 1 and "field_arrays=['temperature']" in said[0]
+    assert not any("as they were read" in loss for loss in mesh.write(tmp_path / "after.vtk"))
+    again = trismooth.read(path)
+    again.smooth(fields="interpolate", field_arrays=["temperature"])
+    assert not any("as they were read" in loss for loss in again.write(tmp_path / "follows.14"))
+
+
+def test_layers_are_counted_in_files_as_in_arrays(tmp_path):
+    rows = [0, 0.02, 0.04, 0.06, 1, 2, 3]
+    points = np.array([[x, y] for y in rows for x in range(8)], dtype=float)
+    cells = [[y * 8 + x, y * 8 + x + 1, (y + 1) * 8 + x] for y in range(6) for x in range(7)]
+    cells += [[y * 8 + x + 1, (y + 1) * 8 + x + 1, (y + 1) * 8 + x] for y in range(6) for x in range(7)]
+    path = off_file(tmp_path / "layers.off", points, np.array(cells))
+    with pytest.warns(trismooth.MeshWarning):
+        of_arrays = trismooth.smooth(points, np.array(cells))
+    with pytest.warns(trismooth.MeshWarning):
+        of_file = trismooth.read(path).smooth()
+    assert of_arrays.layers["kept"] > 0
+    assert of_file.layers == of_arrays.layers
+
+
 def test_losses_of_another_format_are_told(msh, tmp_path):
     mesh = trismooth.read(msh)
     losses = mesh.write(tmp_path / "out.off")

@@ -87,6 +87,18 @@ class PieceFiles(ranks_tool.RanksTest):
             self.run_over(ranks, "smooth", "old.pvtu", "one.vtu", "--single")
             self.assertNotIn(b"trismooth:", self.read("one.vtu"))
 
+    def test_depths_follow_over_any_number_of_ranks(self):
+        self.mesh.point_arrays["depth"] = [x * x + y for x, y, *_ in self.mesh.points]
+        pieces.write_pieces(self.path("deep.pvtu"), pieces.cut(self.mesh, pieces.stripes(self.mesh, 4), 4))
+        for output in ("deep.14", "deep.2dm"):
+            alone = self.report_over(1, "smooth", "deep.pvtu", output, "--single")
+            self.assertEqual([field["name"] for field in alone["fields"]], ["depth"])
+            written = self.read(output)
+            for ranks in (2, 3):
+                over = self.report_over(ranks, "smooth", "deep.pvtu", output, "--single")
+                self.assertEqual(over["fields"], alone["fields"])
+                self.assertEqual(self.read(output), written)
+
     def test_folders(self):
         os.mkdir(self.path("parts"))
         for i, name in enumerate(self.names):
