@@ -118,17 +118,17 @@ def test_values_that_become_depths_and_have_not_followed_are_told(tmp_path):
     lines = ["# vtk DataFile Version 3.0", "a", "ASCII", "DATASET POLYDATA", f"POINTS {len(points)} double"]
     lines += [f"{x!r} {y!r} 0" for x, y in points.tolist()]
     lines += [f"POLYGONS {len(triangles)} {4 * len(triangles)}", *("3 " + " ".join(map(str, t)) for t in triangles.tolist())]
-    lines += [f"POINT_DATA {len(points)}", "SCALARS temperature double 1", "LOOKUP_TABLE default"]
+    lines += [f"POINT_DATA {len(points)}", "SCALARS depth double 1", "LOOKUP_TABLE default"]
     path = tmp_path / "warm.vtk"
     path.write_text("\n".join(lines + [repr(x * x + y) for x, y in points.tolist()]) + "\n")
     mesh = trismooth.read(path)
-    assert not any("temperature" in loss and "as they were read" in loss for loss in mesh.write(tmp_path / "before.14"))
+    assert not any("depth" in loss and "as they were read" in loss for loss in mesh.write(tmp_path / "before.14"))
     mesh.smooth()
     said = [loss for loss in mesh.write(tmp_path / "after.14") if "as they were read" in loss]
-    assert len(said) == 1 and "field_arrays=['temperature']" in said[0]
+    assert len(said) == 1 and "field_arrays=['depth']" in said[0]
     assert not any("as they were read" in loss for loss in mesh.write(tmp_path / "after.vtk"))
     again = trismooth.read(path)
-    again.smooth(fields="interpolate", field_arrays=["temperature"])
+    again.smooth(fields="interpolate", field_arrays=["depth"])
     assert not any("as they were read" in loss for loss in again.write(tmp_path / "follows.14"))
 
 
