@@ -21,6 +21,7 @@
 
 #include "trismooth/base/machine/worker_threads.h"
 #include "trismooth/base/text/list_text.h"
+#include "trismooth/base/text/printable_text.h"
 #include "trismooth/mesh_io/bytes/output_file.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/paper/experiment.h"
@@ -33,7 +34,6 @@
 #include "trismooth/pipeline/cli/subcommands.h"
 #include "trismooth/pipeline/cli/terminal_line.h"
 #include "trismooth/pipeline/generate/random_mesh.h"
-#include "trismooth/pipeline/report/printable_text.h"
 #include "trismooth/pipeline/report/report_format.h"
 #include "trismooth/smoothing/errors.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "trismooth/base/text/utf8.h"
+#include "trismooth/base/text/printable_text.h"
 #include "trismooth/mesh_io/errors.h"
 #include "trismooth/mesh_io/text/blanks.h"
 #include "trismooth/mesh_io/text/number_text.h"
@@ -204,20 +204,11 @@ std::string quoted(std::string_view token) {
   constexpr std::size_t longest = 40;
   std::string text = "'";
   std::size_t shown = 0;
-  for (std::size_t length = 0; !token.empty() && shown < longest; token.remove_prefix(length), shown += length) {
-    const Utf8Character character = first_utf8_character(token);
-    length = std::max<std::size_t>(character.length, 1);
-    const bool is_control = character.code < 0x20 || (0x7f <= character.code && character.code < 0xa0);
-    if (character.length > 0 && !is_control) {
-      text += token.substr(0, length);
-      continue;
-    }
-    for (const char byte : token.substr(0, length)) {
-      constexpr std::string_view digits = "0123456789abcdef";
-      const auto value = static_cast<unsigned char>(byte);
-      text.append("\\x") += digits[value / 16];
-      text += digits[value % 16];
-    }
+  while (!token.empty() && shown < longest) {
+    const std::string_view piece = first_piece(token).bytes;
+    text += printable(piece);
+    shown += piece.size();
+    token.remove_prefix(piece.size());
   }
   return text + (token.empty() ? "'" : "...'");
 }

@@ -84,8 +84,7 @@ class TextScanner {
 void require_room(const std::filesystem::path& path, std::string_view what, std::uint64_t count,
                   std::uint64_t bytes_each, std::uint64_t available);
 
-/// A token for messages: quoted, cut after 40 bytes and the character that they end in; control characters, and bytes
-/// that are no UTF-8, as \x1b.
+/// A token for messages: quoted, cut after 40 bytes and the character that they end in, and printable().
 std::string quoted(std::string_view token);
 
 }  // namespace trismooth

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "trismooth/pipeline/report/printable_text.h"
+#include "trismooth/base/text/printable_text.h"
 
 namespace trismooth {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "trismooth/base/text/printable_text.h"
 #include "trismooth/base/text/utf8.h"
-#include "trismooth/pipeline/report/printable_text.h"
 
 namespace trismooth {
 

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 
 #include "trismooth/base/text/digits.h"
+#include "trismooth/base/text/printable_text.h"
 #include "trismooth/pipeline/picture/plane_view.h"
 #include "trismooth/pipeline/picture/still_picture.h"
-#include "trismooth/pipeline/report/printable_text.h"
 
 namespace trismooth {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "trismooth/pipeline/report/printable_text.h"
+#include "trismooth/base/text/printable_text.h"
 
 namespace trismooth {
 

@@ -2,7 +2,7 @@
 #include "trismooth/pipeline/report/html_text.h"
 
 #include "trismooth/base/text/markup_entity.h"
-#include "trismooth/pipeline/report/printable_text.h"
+#include "trismooth/base/text/printable_text.h"
 
 namespace trismooth {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "trismooth/pipeline/report/printable_text.h"
+#include "trismooth/base/text/printable_text.h"
 #include "trismooth/pipeline/report/terminal.h"
 
 namespace trismooth {

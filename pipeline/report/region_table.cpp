@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
+#include "trismooth/base/text/printable_text.h"
 #include "trismooth/pipeline/report/html_page.h"
 #include "trismooth/pipeline/report/html_text.h"
-#include "trismooth/pipeline/report/printable_text.h"
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/text/report_text.h"
 #include "trismooth/quality/text/text_columns.h"

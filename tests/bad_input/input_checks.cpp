@@ -49,6 +49,39 @@ Listener& listener() {
   return *only;
 }
 
+/// Whether it is UTF-8 without control characters, and without those that hide, break lines or turn their neighbours
+/// round.
+bool is_visible(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U; };
+    const unsigned first = byte(i);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xC2 ? 0
+                               : first < 0xE0 ? 2
+                               : first < 0xF0 ? 3
+                               : first < 0xF5 ? 4
+                                              : 0;
+    if (length == 0) {
+      return false;
+    }
+    unsigned code = length == 1 ? first : first & (0x7FU >> length);
+    for (std::size_t k = 1; k < length; ++k) {
+      if ((byte(i + k) & 0xC0U) != 0x80) {
+        return false;
+      }
+      code = code << 6U | (byte(i + k) & 0x3FU);
+    }
+    const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
+    const bool turns = code == 0x61C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+                       (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+    if (is_control || turns) {
+      return false;
+    }
+    i += length;
+  }
+  return true;
+}
+
 std::string unclear(std::string_view message, std::string_view path) {
   constexpr std::size_t longest = 300;
   if (!message.starts_with(std::string(path) + ":")) {
@@ -57,8 +90,8 @@ std::string unclear(std::string_view message, std::string_view path) {
   if (message.size() > longest) {
     return fmt::format("the message has {} characters: {}", message.size(), message);
   }
-  if (std::ranges::any_of(message, [](char c) { return c < ' ' || c > '~'; })) {
-    return fmt::format("the message holds more than one line of ASCII: {}", message);
+  if (!is_visible(message)) {
+    return fmt::format("the message is not one line of visible characters: {}", message);
   }
   return {};
 }

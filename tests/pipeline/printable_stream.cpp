@@ -5,7 +5,7 @@
 #include <streambuf>
 #include <string>
 
-#include "trismooth/pipeline/report/printable_text.h"
+#include "trismooth/base/text/printable_text.h"
 
 #include "catch.h"
 

@@ -14,7 +14,7 @@ struct TextPiece {
   char32_t code = 0;          ///< of the character
   /// It shows as itself and changes nothing else: no control character (U+0000 to U+001F, U+007F to U+009F), no
   /// direction of writing forced upon its neighbours (U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069), no
-  /// line or paragraph separator (U+2028, U+2029), no byte that is no UTF-8.
+  /// line or paragraph separator (U+2028, U+2029), no mark of byte order (U+FEFF), no byte that is no UTF-8.
   bool is_harmless = false;
 };
 

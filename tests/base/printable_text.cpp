@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "trismooth/pipeline/report/printable_text.h"
+#include "trismooth/base/text/printable_text.h"
 
 #include <string>
 
