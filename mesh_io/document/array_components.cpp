@@ -28,7 +28,8 @@ ScalarType widened_type(const DataArray& array) {
 
 bool is_exact_as_double(const DataArray& array) {
   const auto is_exact = [](auto value) {
-    const auto behind = 2.0 * static_cast<double>(std::numeric_limits<decltype(value)>::max() / 2 + 1);
+    const auto half = std::numeric_limits<decltype(value)>::max() / 2 + 1;
+    const auto behind = 2.0 * static_cast<double>(half);
     const auto real = static_cast<double>(value);
     return real < behind && static_cast<decltype(value)>(real) == value;
   };

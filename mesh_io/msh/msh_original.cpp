@@ -102,10 +102,10 @@ class MshOriginal : public OriginalFile {
 
  private:
   /// As if `bytes` were the file that was read, which has the same nodes and elements.
-  static void write_as(std::string bytes, const std::filesystem::path& path, const MeshDocument& document,
+  static void write_as(const std::string& bytes, const std::filesystem::path& path, const MeshDocument& document,
                        std::span<const DataArray> added_point_arrays, std::span<const DataArray> added_cell_arrays,
                        Workers& workers) {
-    MshOriginal other{FileBytes(std::move(bytes))};
+    MshOriginal other{FileBytes(bytes)};
     other.read(path, FileWorkers(workers));
     other.write(path, document, added_point_arrays, added_cell_arrays, workers);
   }

@@ -279,6 +279,7 @@ class XdmfReader {
   void add_attributes(const std::vector<const XdmfGrid*>& steps) {
     const Part& part = part_of(*steps.front()->topology, block_of(*steps.front()->geometry));
     std::set<std::string> names;
+    // NOLINTNEXTLINE(modernize-loop-convert): a reversed view is beyond Clang 14
     for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
       std::set<std::string> own;
       for (const XmlElement* const attribute : (*step)->attributes) {

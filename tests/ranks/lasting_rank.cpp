@@ -47,7 +47,7 @@ std::FILE* connected(const char* path) {
   address.sun_family = AF_UNIX;
   std::strncpy(address.sun_path, path, sizeof(address.sun_path) - 1);
   const int test = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (::connect(test, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+  if (test < 0 || ::connect(test, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     fail(path);
   }
   return ::fdopen(test, "r");
@@ -55,7 +55,8 @@ std::FILE* connected(const char* path) {
 
 /// Has a standard stream go to the end of a file, past the launcher, which may be late with it.
 void redirect(int stream, const char* path) {
-  if (::dup2(::open(path, O_WRONLY | O_APPEND | O_CLOEXEC), stream) < 0) {
+  const int file = ::open(path, O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (file < 0 || ::dup2(file, stream) < 0) {
     fail(path);
   }
 }
