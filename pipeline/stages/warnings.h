@@ -58,11 +58,11 @@ std::string note_of_dropped_annotations(std::span<const std::string> names);
 /// After the smoothing: folds that the never-worse check put back, and sizes so far from those of the mesh that nothing
 /// moved.
 void warn_of_folds_put_back(RunContext& run, const SmoothingResult& smoothing);
+void warn_of_sizes_out_of_reach(RunContext& run, const SmoothingResult& smoothing);
 
 /// Whether the mesh got smaller, since a vertex came back from far away. The guard has judged it in the frame of the
 /// input, so the report does too: in a frame of its own, elements would look worse of which the guard could see nothing
 /// beside that vertex. Where there may be such elements it is said, with the way out. Local.
 bool has_shrunk(RunContext& run, const LocalFrame& input, const LocalFrame& result);
-void warn_of_sizes_out_of_reach(RunContext& run, const SmoothingResult& smoothing);
 
 }  // namespace trismooth
