@@ -84,4 +84,9 @@ void launch_part_batch(const MethodInUse<T>& method, const PartBatch<T, Rings>& 
   TRISMOOTH_CUDA_CHECK(cudaGetLastError());
 }
 
+/// Instantiates launch_part_batch() for numbers T in rings of the template Rings.
+#define TRISMOOTH_PART_BATCH(T, Rings)                                                                                \
+  template void launch_part_batch(const MethodInUse<T>&, const PartBatch<T, Rings<std::int32_t>>&, Visit, SweepSums*, \
+                                  cudaStream_t)
+
 }  // namespace trismooth::cuda

@@ -54,12 +54,11 @@ void launch_arrival(const PointRecord<T>* in, const ArrivedGhosts& ghosts, const
   }
 }
 
-#define INSTANTIATE(T)                                                                                               \
-  template void launch_part_batch(const MethodInUse<T>&, const PartBatch<T, SlottedRingsView<std::int32_t>>&, Visit, \
-                                  SweepSums*, cudaStream_t);                                                         \
-  template void launch_gathering(const PointArray<T>&, const std::int32_t*, std::int32_t, PointRecord<T>*,           \
-                                 cudaStream_t);                                                                      \
-  template void launch_arrival(const PointRecord<T>*, const ArrivedGhosts&, const PointArray<T>&,                    \
+#define INSTANTIATE(T)                                                                                     \
+  TRISMOOTH_PART_BATCH(T, SlottedRingsView);                                                               \
+  template void launch_gathering(const PointArray<T>&, const std::int32_t*, std::int32_t, PointRecord<T>*, \
+                                 cudaStream_t);                                                            \
+  template void launch_arrival(const PointRecord<T>*, const ArrivedGhosts&, const PointArray<T>&,          \
                                const PointArray<T>&, std::uint32_t*, cudaStream_t)
 INSTANTIATE(float);
 INSTANTIATE(double);

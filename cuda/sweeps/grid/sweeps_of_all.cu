@@ -4,13 +4,7 @@
 
 namespace trismooth::cuda {
 
-#define INSTANTIATE(T, Slot)                                                                                    \
-  template std::int32_t launch_sweeps_of_all(const MethodInUse<T>&, const GridMesh<T, SlottedRingsView<Slot>>&, \
-                                             const LoopRules&, std::span<const std::int32_t>, std::int32_t,     \
-                                             LoopState*, SweepSums*, cudaStream_t)
-INSTANTIATE(float, std::int16_t);
-INSTANTIATE(float, std::int32_t);
-INSTANTIATE(double, std::int16_t);
-INSTANTIATE(double, std::int32_t);
+TRISMOOTH_SWEEPS_OF_ALL(float, SlottedRingsView);
+TRISMOOTH_SWEEPS_OF_ALL(double, SlottedRingsView);
 
 }  // namespace trismooth::cuda

@@ -13,8 +13,8 @@
 #include "trismooth/cuda/sweeps/grid/grid_sweeps.h"
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
 
-/// Sweeps that evaluate every vertex, over rings of any kind. A source instantiates launch_sweeps_of_all() for those
-/// that it is of.
+/// Sweeps that evaluate every vertex, over rings of any kind. A source has TRISMOOTH_SWEEPS_OF_ALL make those that it
+/// is of.
 namespace trismooth::cuda {
 
 namespace sweeps_of_all_details {
@@ -110,5 +110,15 @@ std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T
   });
   return launches;
 }
+
+#define TRISMOOTH_SWEEPS_OF_ALL_IN(T, ...)                                                                             \
+  template std::int32_t launch_sweeps_of_all(const MethodInUse<T>&, const GridMesh<T, __VA_ARGS__>&, const LoopRules&, \
+                                             std::span<const std::int32_t>, std::int32_t, LoopState*, SweepSums*,      \
+                                             cudaStream_t)
+
+/// Instantiates launch_sweeps_of_all() for numbers T in rings of the template Rings, with slots of either width.
+#define TRISMOOTH_SWEEPS_OF_ALL(T, Rings)             \
+  TRISMOOTH_SWEEPS_OF_ALL_IN(T, Rings<std::int16_t>); \
+  TRISMOOTH_SWEEPS_OF_ALL_IN(T, Rings<std::int32_t>)
 
 }  // namespace trismooth::cuda

@@ -8,13 +8,7 @@ std::size_t barrier_words(const LoopRules& rules) {
   return static_cast<std::size_t>(rules.sweeps) * (static_cast<std::size_t>(rules.batch_count) + 1);
 }
 
-#define INSTANTIATE(T, Slot)                                                                                         \
-  template void launch_sweeps_of_marked(const MethodInUse<T>&, const GridMesh<T, SlottedRingsView<Slot>>&,           \
-                                        const LoopRules&, std::int32_t, LoopState*, SweepSums*, unsigned long long*, \
-                                        cudaStream_t)
-INSTANTIATE(float, std::int16_t);
-INSTANTIATE(float, std::int32_t);
-INSTANTIATE(double, std::int16_t);
-INSTANTIATE(double, std::int32_t);
+TRISMOOTH_SWEEPS_OF_MARKED(float, SlottedRingsView);
+TRISMOOTH_SWEEPS_OF_MARKED(double, SlottedRingsView);
 
 }  // namespace trismooth::cuda

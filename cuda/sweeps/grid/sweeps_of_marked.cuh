@@ -13,8 +13,8 @@
 #include "trismooth/cuda/sweeps/grid/vertex_visit.cuh"
 #include "trismooth/cuda/sweeps/smallest_quotient.cuh"
 
-/// Sweeps that evaluate the marked vertices, over rings of any kind. A source instantiates launch_sweeps_of_marked()
-/// for those that it is of.
+/// Sweeps that evaluate the marked vertices, over rings of any kind. A source has TRISMOOTH_SWEEPS_OF_MARKED make those
+/// that it is of.
 namespace trismooth::cuda {
 
 namespace sweeps_of_marked_details {
@@ -152,5 +152,14 @@ void launch_sweeps_of_marked(const MethodInUse<T>& method, const GridMesh<T, Rin
     sweeps_of_marked_details::launch_with(update, mesh, rules, largest_batch, state, sums, barriers, stream);
   });
 }
+
+#define TRISMOOTH_SWEEPS_OF_MARKED_IN(T, ...)                                                                     \
+  template void launch_sweeps_of_marked(const MethodInUse<T>&, const GridMesh<T, __VA_ARGS__>&, const LoopRules&, \
+                                        std::int32_t, LoopState*, SweepSums*, unsigned long long*, cudaStream_t)
+
+/// Instantiates launch_sweeps_of_marked() for numbers T in rings of the template Rings, with slots of either width.
+#define TRISMOOTH_SWEEPS_OF_MARKED(T, Rings)             \
+  TRISMOOTH_SWEEPS_OF_MARKED_IN(T, Rings<std::int16_t>); \
+  TRISMOOTH_SWEEPS_OF_MARKED_IN(T, Rings<std::int32_t>)
 
 }  // namespace trismooth::cuda

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Visits of parts of meshes with quadrilaterals, in double precision.
+#include "trismooth/cuda/packing/slotted_rings.h"
+#include "trismooth/cuda/parts/part_batch.cuh"
+
+namespace trismooth::cuda {
+
+TRISMOOTH_PART_BATCH(double, SlottedMixedRingsView);
+
+}  // namespace trismooth::cuda
