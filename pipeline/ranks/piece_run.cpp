@@ -177,7 +177,8 @@ class PieceMesh final : public StagedMesh {
     hash(smoothing);
     const LocalPoints before = std::exchange(local_, {});
     enter_frame();
-    if (has_shrunk(run_, before.frame, local_.frame)) {
+    if (has_shrunk(before.frame, local_.frame)) {
+      warn_of_shrinking(run_, before.frame, local_.frame);
       local_ = entered(before.frame, topology_->of_vertices<Point2<double>>(points_of(files_, mesh_)));
     }
     const Stopwatch watch;

@@ -108,7 +108,8 @@ SmoothingResult smooth_mesh(RunState& run) {
   const LocalPoints input = std::exchange(run.local, {});
   const std::vector<std::uint8_t> input_reversed = run.found.reversed;
   run.enter_frame();
-  if (has_shrunk(run, input.frame, run.local.frame)) {
+  if (has_shrunk(input.frame, run.local.frame)) {
+    warn_of_shrinking(run, input.frame, run.local.frame);
     run.local = entered(input.frame, run.mesh.points);
   }
   if (smoothing.untangling) {

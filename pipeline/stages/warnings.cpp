@@ -306,7 +306,11 @@ void warn_of_folds_put_back(RunContext& run, const SmoothingResult& smoothing) {
   }
 }
 
-bool has_shrunk(RunContext& run, const LocalFrame& input, const LocalFrame& result) {
+bool has_shrunk(const LocalFrame& input, const LocalFrame& result) {
+  return input.exponent > result.exponent;
+}
+
+void warn_of_shrinking(RunContext& run, const LocalFrame& input, const LocalFrame& result) {
   constexpr int far = 100;  // powers of two
   const int shrunk = input.exponent - result.exponent;
   if (shrunk > far) {
@@ -316,7 +320,6 @@ bool has_shrunk(RunContext& run, const LocalFrame& input, const LocalFrame& resu
                     "the result once more, or put that vertex right in the input",
                     shrunk * std::numbers::ln2 / std::numbers::ln10));
   }
-  return shrunk > 0;
 }
 
 void warn_of_sizes_out_of_reach(RunContext& run, const SmoothingResult& smoothing) {

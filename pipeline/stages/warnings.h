@@ -62,7 +62,10 @@ void warn_of_sizes_out_of_reach(RunContext& run, const SmoothingResult& smoothin
 
 /// Whether the mesh got smaller, since a vertex came back from far away. The guard has judged it in the frame of the
 /// input, so the report does too: in a frame of its own, elements would look worse of which the guard could see nothing
-/// beside that vertex. Where there may be such elements it is said, with the way out. Local.
-bool has_shrunk(RunContext& run, const LocalFrame& input, const LocalFrame& result);
+/// beside that vertex. Local.
+bool has_shrunk(const LocalFrame& input, const LocalFrame& result);
+
+/// Where it shrank so far that there may be such elements: with the way out. Local.
+void warn_of_shrinking(RunContext& run, const LocalFrame& input, const LocalFrame& result);
 
 }  // namespace trismooth
