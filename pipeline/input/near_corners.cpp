@@ -59,10 +59,12 @@ std::int64_t merge_corners(PlanarMesh& mesh, double distance) {
       }
       for (std::size_t i = 0; i < corners.size(); ++i) {
         if (std::count(corners.begin(), corners.end(), corners[i]) > 1) {
-          throw std::invalid_argument(fmt::format(
-              "--merge {} would join two corners of the {} in cell {}; the shortest side of the mesh is {:.3g}",
-              distance, corners.size() == 3 ? "triangle" : "quadrilateral", mesh.cells[e],
-              shortest_side(mesh.points, mesh.elements)));
+          const double shortest = shortest_side(mesh.points, mesh.elements);
+          throw std::invalid_argument(
+              fmt::format("--merge {} would join two corners of the {} in cell {}; {}", distance,
+                          corners.size() == 3 ? "triangle" : "quadrilateral", mesh.cells[e],
+                          std::isinf(shortest) ? "no side of the mesh has a length"
+                                               : fmt::format("the shortest side of the mesh is {:.3g}", shortest)));
         }
       }
     }

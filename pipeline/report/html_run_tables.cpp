@@ -117,14 +117,11 @@ std::string html_options_table(const PipelineOptions& options, const SmoothingRe
   if (options.fixed_ids) {
     rows.emplace_back("fixed by file", escape_html(options.fixed_ids->string()));
   }
+  rows.emplace_back("backend", escape_html(who_smoothed(smoothing)));
   if (ran_on_device(smoothing)) {
-    rows.emplace_back("backend", escape_html(smoothing.backend));
     rows.emplace_back("execution", escape_html(to_string(chosen.execution)));
     rows.emplace_back("layout", escape_html(to_string(chosen.layout)));
     rows.emplace_back("order", escape_html(to_string(chosen.order)));
-  } else {
-    rows.emplace_back("backend", escape_html(fmt::format("{}, {} thread{}", smoothing.backend, smoothing.threads,
-                                                         smoothing.threads == 1 ? "" : "s")));
   }
   if (!smoothing.backend_note.empty()) {
     rows.emplace_back("why this backend", escape_html(smoothing.backend_note));

@@ -17,6 +17,7 @@
 #include "trismooth/quality/text/quality_table.h"
 #include "trismooth/quality/text/report_text.h"
 #include "trismooth/smoothing/cpu_backend.h"
+#include "trismooth/smoothing/result_text.h"
 
 namespace trismooth {
 
@@ -70,12 +71,6 @@ std::string input_lines(const InputSummary& input, TextDetail detail) {
   }
   const std::string lines = line_groups_text(input);
   return lines.empty() ? text : text + labelled_line("lines:", lines);
-}
-
-std::string who_smoothed(const SmoothingResult& smoothing) {
-  return ran_on_device(smoothing)
-             ? smoothing.backend
-             : fmt::format("{} with {}", smoothing.backend, counted(smoothing.threads, "thread", "threads"));
 }
 
 std::string device_line(const SmoothingOptions& options, const SmoothingResult& smoothing) {
@@ -307,23 +302,7 @@ std::string untangling_text(const SmoothingResult& smoothing) {
 
 std::string sliding_text(const PipelineResult& result) {
   const SlidingResult& sliding = *result.smoothing->sliding;
-  if (sliding.vertices == 0) {
-    return "no vertex of a boundary or an interface can slide";
-  }
-  if (sliding.given_up) {
-    return "given up: so many vertices would have gone back for it that nothing slides";
-  }
-  std::string text =
-      fmt::format("{} of {} on {} slid", count_text(sliding.slid), counted(sliding.vertices, "vertex", "vertices"),
-                  counted(sliding.chains, "line", "lines"));
-  if (sliding.slid > 0) {
-    text += sliding.largest_deviation > 0
-                ? fmt::format("; lines are up to {:.3g} from where they were, {:.3g} of an edge",
-                              sliding.largest_deviation, sliding.relative_deviation)
-                : std::string("; lines are where they were");
-    text += "; " + areas_text(result);
-  }
-  return text;
+  return sliding_text(sliding) + (sliding.slid > 0 ? "; " + areas_text(result) : "");
 }
 
 std::string_view why_nothing_moved(const PipelineResult& result) {
@@ -393,6 +372,12 @@ std::string duration_text(double milliseconds) {
 
 bool ran_on_device(const SmoothingResult& smoothing) {
   return smoothing.backend != cpu_backend().name();
+}
+
+std::string who_smoothed(const SmoothingResult& smoothing) {
+  return smoothing.threads == 0
+             ? smoothing.backend
+             : fmt::format("{} with {}", smoothing.backend, counted(smoothing.threads, "thread", "threads"));
 }
 
 std::string launches_text(const SmoothingResult& smoothing) {

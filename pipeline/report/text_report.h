@@ -25,6 +25,9 @@ std::string duration_text(double milliseconds);
 /// Whether a device, not the CPU, ran the sweeps.
 bool ran_on_device(const SmoothingResult& smoothing);
 
+/// Who made the sweeps: "cpu with 2 threads"; a device, and a run that ended before its first sweep, by name alone.
+std::string who_smoothed(const SmoothingResult& smoothing);
+
 /// "14 by the host, 120 by the device": kernel launches of a smoothing on a device.
 std::string launches_text(const SmoothingResult& smoothing);
 

@@ -22,6 +22,7 @@
 #include "trismooth/quality/size_change.h"
 #include "trismooth/smoothing/commit.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/result_text.h"
 
 namespace trismooth {
 
@@ -238,8 +239,8 @@ void Deformer::step_checked() {
   result.size_change = worst_.size_change;
   result.coordinates_hash = worst_.coordinates_hash;
   result.unguarded_hash = worst_.unguarded_hash;
-  if (const LayersResult& layers = result.smoothing->layers; layers.kept > 0) {
-    run_.note(note_of_carried_layers(layers));
+  if (std::string note = carried_layers_text(result.smoothing->layers); !note.empty()) {
+    run_.note(std::move(note));
   }
   if (const auto ended = std::ranges::count(steps_.steps, StopReason::sweep_limit, &DeformedStep::stop_reason);
       ended > 0) {

@@ -13,7 +13,7 @@
 #include "trismooth/base/text/list_text.h"
 #include "trismooth/pipeline/input/regions.h"
 #include "trismooth/pipeline/stages/run_context.h"
-#include "trismooth/pipeline/stages/warnings.h"
+#include "trismooth/smoothing/result_text.h"
 
 namespace trismooth {
 
@@ -67,7 +67,7 @@ void summarise_mesh(RunContext& run, const MeshFacts& facts) {
   result.notes.insert(result.notes.begin(), facts.regions.notes.begin(), facts.regions.notes.end());
   std::ranges::move(notes_of_irregular_vertices(facts.reasons, facts.quadrilaterals > 0 ? "elements" : "triangles"),
                     std::back_inserter(result.notes));
-  if (std::string note = note_of_layers(facts.layers); !note.empty()) {
+  if (std::string note = held_layers_text(facts.layers); !note.empty()) {
     run.note(std::move(note));
   }
 }

@@ -22,6 +22,7 @@
 #include "trismooth/quality/region_area.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/limited.h"
+#include "trismooth/smoothing/result_text.h"
 #include "trismooth/smoothing/sweeps/relative_sizes.h"
 #include "trismooth/space/plane_smoothing.h"
 
@@ -126,7 +127,8 @@ SmoothingResult smooth_mesh(RunState& run) {
   note_growth_bound(run, before);
   if (smoothing.sliding) {
     compare_areas(run, before);
-    if (std::string note = note_of_touching_lines(*smoothing.sliding, run.options.slide); !note.empty()) {
+    if (std::string note = touching_lines_text(*smoothing.sliding, !run.options.slide.coincident, true);
+        !note.empty()) {
       run.note(std::move(note));
     }
   }

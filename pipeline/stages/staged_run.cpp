@@ -6,6 +6,7 @@
 
 #include "trismooth/pipeline/stages/compare_stage.h"
 #include "trismooth/pipeline/stages/warnings.h"
+#include "trismooth/smoothing/result_text.h"
 
 namespace trismooth {
 
@@ -94,8 +95,8 @@ void StagedRun::smooth() {
   timings.smooth += smoothing.timings.smooth;
   timings.transfer_out += smoothing.timings.transfer_out;
   timings.guard += smoothing.timings.commit;
-  if (has_no_time_for_sweeps(smoothing)) {
-    run_.warn("the time was up before the first sweep, so no sweep has moved anything; give --time-limit more");
+  if (std::string warning = no_time_text(smoothing); !warning.empty()) {
+    run_.warn(std::move(warning));
   }
   // Rings had their layers held before there was a smoothing.
   smoothing.layers = run_.result.input.layers;

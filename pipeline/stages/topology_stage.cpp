@@ -25,6 +25,7 @@
 #include "trismooth/pipeline/stages/run_state.h"
 #include "trismooth/smoothing/backend_choice.h"
 #include "trismooth/smoothing/errors.h"
+#include "trismooth/smoothing/result_text.h"
 
 namespace trismooth {
 
@@ -233,15 +234,6 @@ void hold_thin_quads(RunState& run, std::vector<std::uint8_t>& fixed) {
   }
 }
 
-void note_shared_middles(RunState& run, std::int64_t count) {
-  if (count > 0) {
-    run.note(
-        counted(count, "node in the middle of a side or element is", "nodes in the middle of sides or elements are") +
-        " a corner as well, or in the middle of others too: held, with the corners around " +
-        (count == 1 ? "it" : "them") + "; a node of its own for each side and element lets them move");
-  }
-}
-
 /// Whether the host goes by halfedges. Beyond so many triangles their memory is more than it is worth, and the handles
 /// of OpenMesh come to their end; a check alone has no use for them.
 bool goes_by_halfedges(const RunState& run) {
@@ -322,7 +314,9 @@ void connect_mesh(RunState& run) {
   std::ranges::copy(options.fixed_vertices, std::back_inserter(ids));
   if (!mesh.quadratics.empty()) {
     add_vertices(fixed, ids, document.point_count());
-    note_shared_middles(run, settle_middles(mesh, document.points, fixed));
+    if (std::string note = shared_middles_text(settle_middles(mesh, document.points, fixed)); !note.empty()) {
+      run.note(std::move(note));
+    }
   }
   if (!mesh.merged.empty()) {
     add_vertices(fixed, ids, document.point_count());

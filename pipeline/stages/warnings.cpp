@@ -22,6 +22,7 @@
 #include "trismooth/pipeline/stages/run_context.h"
 #include "trismooth/pipeline/stages/staged_mesh.h"
 #include "trismooth/quality/text/report_text.h"
+#include "trismooth/smoothing/result_text.h"
 
 namespace trismooth {
 
@@ -47,18 +48,6 @@ void warn_of_projection(RunContext& run) {
                     to_string(*run.options.project), before.inverted + before.degenerate, before.elements(),
                     element_words(before.triangles, before.quadrilaterals).several));
   }
-}
-
-/// What is smoothed though it is flat in one direction, with the way out; empty where there is nothing.
-std::string warning_of_layers(const LayersResult& layers) {
-  return layers.left == 0
-             ? std::string()
-             : fmt::format(
-                   "{} where elements are flat in one direction (aspect {:.3g} at most) and {} smoothed as "
-                   "all others; if that is on purpose, --layers keep holds {}, and --method mean-ratio "
-                   "--target input-shape keeps the shapes",
-                   counted(layers.left, "vertex is", "vertices are"), layers.left_aspect,
-                   layers.left == 1 ? "is" : "are", layers.left == 1 ? "it" : "them");
 }
 
 /// What is to be done about inverted elements that remain.
@@ -113,21 +102,6 @@ std::string warning_of_options_without_effect(const PipelineOptions& options) {
   return warning;
 }
 
-bool has_no_time_for_sweeps(const SmoothingResult& smoothing) {
-  return smoothing.stop_reason == StopReason::time_limit && smoothing.sweeps == 0;
-}
-
-std::string note_of_layers(const LayersResult& layers) {
-  const std::int64_t held = layers.kept + layers.kept_on_lines;
-  return held == 0 ? std::string()
-                   : fmt::format(
-                         "{} of layers that are flat on purpose (aspect {:.3g} at most) and {} held{}; "
-                         "--layers smooth moves {}",
-                         counted(held, "vertex is", "vertices are"), layers.kept_aspect, held == 1 ? "is" : "are",
-                         layers.kept_on_lines > 0 ? fmt::format(", {} of which would slide", layers.kept_on_lines) : "",
-                         held == 1 ? "it" : "them");
-}
-
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
   std::vector<std::string> warnings;
   // (Of quadrilaterals whose corners are not in turn a note has told.)
@@ -148,14 +122,6 @@ std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
                     result.quadratic_before->invalid));
   }
   return warnings;
-}
-
-std::string note_of_carried_layers(const LayersResult& layers) {
-  return fmt::format(
-      "{} of layers that are flat on purpose (aspect {:.3g} at most) and {} carried along as {}; --layers smooth "
-      "smooths {}, and goes further where the boundary bends",
-      counted(layers.kept, "vertex is", "vertices are"), layers.kept_aspect, layers.kept == 1 ? "is" : "are",
-      layers.kept == 1 ? "it is" : "they are", layers.kept == 1 ? "it" : "them");
 }
 
 std::vector<std::string> warnings_of_deformation(const PipelineResult& result) {
@@ -249,25 +215,6 @@ void check_deformation(const PipelineOptions& options) {
   }
 }
 
-std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked) {
-  std::vector<std::string> held;
-  if (sliding.in_same_place > 0) {
-    held.push_back(fmt::format("{} where others are, within a thousandth of an edge", sliding.in_same_place));
-  }
-  if (sliding.at_edges > 0) {
-    held.push_back(fmt::format("{} within edges of others or at their ends", sliding.at_edges));
-  }
-  if (held.empty()) {
-    return {};
-  }
-  const bool may_slide_together = sliding.in_same_place > 0 && !asked.coincident;
-  return fmt::format(
-      "lines touch without sharing vertices, so these do not slide: {}; {}--merge DISTANCE, without --slide, joins "
-      "vertices that nearly coincide",
-      fmt::join(held, ", "),
-      may_slide_together ? "--slide-coincident has those in the same place slide together, " : "");
-}
-
 void warn_of_input(RunContext& run) {
   if (run.options.fixed_ids && run.result.input.fixed_ids_vertices == 0) {
     run.warn(run.options.fixed_ids->string() + ": names no vertices, so it holds none");
@@ -283,7 +230,7 @@ void warn_before_smoothing(StagedMesh& mesh) {
   if (const CoarseBoundary coarse = mesh.coarse_boundary(); coarse.any()) {
     run.warn(describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)");
   }
-  if (std::string warning = warning_of_layers(run.result.input.layers); !warning.empty()) {
+  if (std::string warning = left_layers_text(run.result.input.layers); !warning.empty()) {
     run.warn(std::move(warning));
   }
   warn_of_projection(run);

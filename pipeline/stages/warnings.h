@@ -10,13 +10,10 @@
 namespace trismooth {
 
 class StagedMesh;
-struct LayersResult;
 struct LocalFrame;
 struct PipelineOptions;
 struct PipelineResult;
 struct RunContext;
-struct Sliding;
-struct SlidingResult;
 struct SmoothingResult;
 
 /// What the user should know of what was read: a file of vertices to hold that names none.
@@ -29,18 +26,9 @@ void warn_before_smoothing(StagedMesh& mesh);
 /// Empty where the method, and the way of sliding, take notice of all options.
 std::string warning_of_options_without_effect(const PipelineOptions& options);
 
-/// What was held since it is flat on purpose, with the way out; empty where there is nothing.
-std::string note_of_layers(const LayersResult& layers);
-
-/// Whether the time was up before the first sweep, and with it perhaps before all was untangled.
-bool has_no_time_for_sweeps(const SmoothingResult& smoothing);
-
 /// What is to be said of a result of that method in which elements are inverted, or triangles of six nodes not valid,
 /// with the way out.
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result);
-
-/// What is carried along since it is flat on purpose, with the way out. There is some.
-std::string note_of_carried_layers(const LayersResult& layers);
 
 /// What is to be said of a mesh that has not followed its boundary as it should, with the way out.
 std::vector<std::string> warnings_of_deformation(const PipelineResult& result);
@@ -48,9 +36,6 @@ std::vector<std::string> warnings_of_deformation(const PipelineResult& result);
 /// Throws std::invalid_argument where the mesh is to follow its boundary, and something is asked for that it then does
 /// not have.
 void check_deformation(const PipelineOptions& options);
-
-/// What does not slide since lines touch without sharing vertices, with the way out; empty where there is nothing.
-std::string note_of_touching_lines(const SlidingResult& sliding, const Sliding& asked);
 
 /// What to say where annotations of these names are in the output, made by an earlier run.
 std::string note_of_dropped_annotations(std::span<const std::string> names);

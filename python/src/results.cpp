@@ -17,6 +17,7 @@
 #include "trismooth/quality/metrics.h"
 #include "trismooth/quality/size_ratio.h"
 #include "trismooth/quality/text/quality_table.h"
+#include "trismooth/smoothing/result_text.h"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -206,14 +207,19 @@ void bind_sliding(nb::module_& module) {
               "Likewise: that lie within an edge of another line, and the ends of these edges.")
       .def_ro("given_up", &SlidingResult::given_up,
               "So many vertices would have gone back for it that all was smoothed once more without sliding.")
-      .def("__repr__", [](const SlidingResult& sliding) {
-        std::ostringstream text;
-        text << "SlidingResult(lines=" << sliding.chains << ", vertices=" << sliding.vertices
-             << ", slid=" << sliding.slid << ", largest_deviation=" << sliding.largest_deviation
-             << ", relative_deviation=" << sliding.relative_deviation << ", in_same_place=" << sliding.in_same_place
-             << ", at_edges=" << sliding.at_edges << ", given_up=" << (sliding.given_up ? "True" : "False") << ")";
-        return text.str();
-      });
+      .def("__repr__",
+           [](const SlidingResult& sliding) {
+             std::ostringstream text;
+             text << "SlidingResult(lines=" << sliding.chains << ", vertices=" << sliding.vertices
+                  << ", slid=" << sliding.slid << ", largest_deviation=" << sliding.largest_deviation
+                  << ", relative_deviation=" << sliding.relative_deviation
+                  << ", in_same_place=" << sliding.in_same_place << ", at_edges=" << sliding.at_edges
+                  << ", given_up=" << (sliding.given_up ? "True" : "False") << ")";
+             return text.str();
+           })
+      .def("__str__", [](const SlidingResult& sliding) { return sliding_text(sliding); });
+  module.def("where_lines_are", &where_lines_are, "sliding"_a,
+             "How far the new lines are from the old ones, or why nothing slides; empty where nothing slid.");
 }
 
 /// What is said of a mesh that followed its boundary; None of others.
@@ -262,8 +268,25 @@ void bind_results(nb::module_& module) {
       .def_prop_ro("guard_rounds", of_smoothing<&SmoothingResult::guard_rounds>())
       .def_prop_ro("free_vertices", of_smoothing<&SmoothingResult::free_vertices>())
       .def_prop_ro("quadrilaterals", of_smoothing<&SmoothingResult::quadrilaterals>())
-      .def_prop_ro("shared_middles", of_smoothing<&SmoothingResult::shared_middles>())
       .def_prop_ro("layers", &layers_of)
+      .def_prop_ro("layers_notes",
+                   [](const Outcome& outcome) {
+                     const LayersResult& layers = outcome.smoothing.layers;
+                     return std::vector{held_layers_text(layers), left_layers_text(layers)};
+                   })
+      .def_prop_ro("carried_layers_notes",
+                   [](const Outcome& outcome) {
+                     const LayersResult& layers = outcome.smoothing.layers;
+                     return std::vector{carried_layers_text(layers), left_layers_text(layers)};
+                   })
+      .def_prop_ro("shared_middles_note",
+                   [](const Outcome& outcome) { return shared_middles_text(outcome.smoothing.shared_middles); })
+      .def_prop_ro("touching_lines_note",
+                   [](const Outcome& outcome) {
+                     const auto& sliding = outcome.smoothing.sliding;
+                     return sliding ? touching_lines_text(*sliding, true, false) : std::string();
+                   })
+      .def_prop_ro("no_time_note", [](const Outcome& outcome) { return no_time_text(outcome.smoothing); })
       .def_prop_ro("following", &following_of)
       .def_prop_ro("inverted", of_smoothing<&SmoothingResult::inverted>())
       .def_prop_ro("degenerate", of_smoothing<&SmoothingResult::degenerate>())

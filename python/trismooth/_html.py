@@ -7,8 +7,8 @@ import math
 from html import escape
 from typing import TYPE_CHECKING, List, Optional, Sequence, Tuple
 
-from ._core import QualityReport
-from ._result import free_moved, where_lines_are
+from ._core import QualityReport, where_lines_are
+from ._result import free_moved
 
 if TYPE_CHECKING:
     from ._result import Result

@@ -12,7 +12,7 @@ from ._constraints import Constraints
 from ._notes import options_without_effect, warn_of
 from ._plan import OnHost
 from ._result import NOT_MENDED as _NOT_MENDED
-from ._result import Result, kind_of, layers_notes, notes_of
+from ._result import Result, kind_of, notes_of
 from ._smooth import Progress
 
 _MOST_LISTED = 1000
@@ -30,16 +30,12 @@ def _following(outcome: _core.Outcome) -> dict[str, Any]:
 
 
 def _notes_of_following(outcome: _core.Outcome, says_layers: bool) -> List[str]:
-    # What is kept of layers is kept where it is carried to; what is not mended has another way out.
-    of_layers = layers_notes(outcome)
+    # What is not mended has another way out than where nothing moves.
     no_room = _NO_TIME if outcome.stop_reason == "time_limit" else _NO_ROOM
     carried = "so vertices are where they were carried" if outcome.inverted >= 0 else "so no vertex has moved"
     notes = [
-        note.replace("are held: ", "are carried along and not smoothed: ")
-        .replace(_NOT_MENDED, no_room)
-        .replace("so no sweep has moved anything", carried)
-        for note in notes_of(outcome)
-        if says_layers or note not in of_layers
+        note.replace(_NOT_MENDED, no_room).replace("so no sweep has moved anything", carried)
+        for note in notes_of(outcome, outcome.carried_layers_notes if says_layers else [])
     ]
     folded = 0 if outcome.following is None else outcome.following["invalid_held"]
     if folded > 0:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Dict, List, Optional
 
 from . import _core
 from ._core import QualityReport, SlidingResult, SweepRecord
+from ._notes import in_python
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,105 +46,23 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
 
 def had_no_time(outcome: _core.Outcome) -> bool:
     """Whether the time was up before the first sweep, and with it perhaps before all was untangled."""
-    return outcome.stop_reason == "time_limit" and outcome.sweeps == 0
+    return bool(outcome.no_time_note)
 
 
-def time_note(outcome: _core.Outcome) -> List[str]:
-    """What to say where there was no time for any sweep: a sentence, or none."""
-    if not had_no_time(outcome):
-        return []
-    return ["the time was up before the first sweep, so no sweep has moved anything; give time_limit more"]
-
-
-def layers_notes(outcome: _core.Outcome) -> List[str]:
-    """What to say of triangles that are flat in one direction."""
-    layers = outcome.layers
-    notes = []
-    held = layers["kept"] + layers["kept_on_lines"]
-    if held > 0:
-        sliding = f", {layers['kept_on_lines']:,} of which would slide" if layers["kept_on_lines"] > 0 else ""
-        notes.append(
-            f"vertices of layers that are flat on purpose (aspect {layers['kept_aspect']:.3g} at most) are held: "
-            f"{held:,}{sliding}; layers='smooth' moves them"
-        )
-    if layers["left"] > 0:
-        notes.append(
-            f"vertices where triangles are flat in one direction (aspect {layers['left_aspect']:.3g} at most) are smoothed "
-            f"as all others: {layers['left']:,}; if that is on purpose, layers='keep' holds them, and method='mean-ratio' "
-            "with target='input-shape' keeps the shapes"
-        )
-    return notes
-
-
-def touching_lines_note(outcome: _core.Outcome) -> List[str]:
-    """What to say of vertices that do not slide since lines touch without sharing vertices: a sentence, or none."""
-    sliding = outcome.sliding
-    held = []
-    if sliding is not None and sliding.in_same_place > 0:
-        held.append(f"{sliding.in_same_place:,} where others are, within a thousandth of an edge")
-    if sliding is not None and sliding.at_edges > 0:
-        held.append(f"{sliding.at_edges:,} within edges of others or at their ends")
-    if not held:
-        return []
-    return [
-        f"lines touch without sharing vertices, so these do not slide: {', '.join(held)}; triangles of both sides may name "
-        "the same vertices, and slide_coincident=True has those that nearly coincide slide together, unless on splines"
+def notes_of(outcome: _core.Outcome, layers: Optional[List[str]] = None) -> List[str]:
+    """What to say of what a smoothing did, one sentence each; of layers what a smoothing says, or these sentences."""
+    said = [
+        outcome.shared_middles_note,
+        *(outcome.layers_notes if layers is None else layers),
+        outcome.touching_lines_note,
+        outcome.no_time_note,
     ]
-
-
-def shared_middles_note(outcome: _core.Outcome) -> List[str]:
-    """What to say of nodes between corners that cannot follow these: a sentence, or none."""
-    count = outcome.shared_middles
-    if count == 0:
-        return []
-    return [
-        f"nodes in the middle of sides or elements that are corners as well, or in the middle of others too: {count:,}; they "
-        "are held, with the corners around them, and a node of its own for each side and element lets them move"
-    ]
-
-
-def notes_of(outcome: _core.Outcome) -> List[str]:
-    """What to say of what a smoothing did, one sentence each."""
-    return [
-        *shared_middles_note(outcome),
-        *layers_notes(outcome),
-        *touching_lines_note(outcome),
-        *time_note(outcome),
-        *invalid_triangles_note(outcome),
-    ]
+    return [*(in_python(sentence) for sentence in said if sentence), *invalid_triangles_note(outcome)]
 
 
 def free_moved(result: Result) -> int:
     """How many of the free vertices moved: those that slid are none of them."""
     return result.moved - (0 if result.sliding is None else result.sliding.slid)
-
-
-def sliding_text(sliding: SlidingResult) -> str:
-    """What became of vertices that may slide, in the words of the program's report."""
-    where = where_lines_are(sliding)
-    if sliding.vertices == 0 or sliding.given_up:
-        return where
-    text = (
-        f"{sliding.slid:,} of {sliding.vertices:,} vert{'ex' if sliding.vertices == 1 else 'ices'} on "
-        f"{sliding.lines:,} line{'' if sliding.lines == 1 else 's'} slid"
-    )
-    return f"{text}; {where}" if where else text
-
-
-def where_lines_are(sliding: SlidingResult) -> str:
-    """How far the new lines are from the old ones; empty where nothing slid."""
-    if sliding.vertices == 0:
-        return "no vertex of a boundary or an interface can slide"
-    if sliding.given_up:
-        return "given up: so many vertices would have gone back for it that nothing slides"
-    if sliding.slid == 0:
-        return ""
-    if sliding.largest_deviation == 0:
-        return "lines are where they were"
-    return (
-        f"lines are up to {sliding.largest_deviation:.3g} from where they were, "
-        f"{sliding.relative_deviation:.3g} of an edge"
-    )
 
 
 class Result:
@@ -378,7 +297,7 @@ class Result:
     def __str__(self) -> str:
         lines = f"{self._moves()} in {self.sweeps} sweep{'' if self.sweeps == 1 else 's'}; stopped by {self.stop_reason}"
         if self.sliding is not None:
-            lines += f"\n{sliding_text(self.sliding)}"
+            lines += f"\n{self.sliding}"
         return f"{lines}\n\n{self._outcome.summary()}" if self.has_quality else lines
 
     def __repr__(self) -> str:

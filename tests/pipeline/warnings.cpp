@@ -42,29 +42,6 @@ TEST_CASE("options that the method or the way of sliding takes no notice of are 
   CHECK(warning_of_options_without_effect(options).empty());
 }
 
-TEST_CASE("what stays where lines touch is told, with what there is to do about it") {
-  trismooth::SlidingResult sliding;
-  trismooth::Sliding asked;
-  CHECK(trismooth::note_of_touching_lines(sliding, asked).empty());
-  sliding.in_same_place = 20;
-  CHECK(trismooth::note_of_touching_lines(sliding, asked) ==
-        "lines touch without sharing vertices, so these do not slide: 20 where others are, within a thousandth of an "
-        "edge; --slide-coincident has those in the same place slide together, --merge DISTANCE, without --slide, joins "
-        "vertices that nearly coincide");
-  sliding.at_edges = 5;
-  asked.coincident = true;
-  CHECK(
-      trismooth::note_of_touching_lines(sliding, asked) ==
-      "lines touch without sharing vertices, so these do not slide: 20 where others are, within a thousandth of an "
-      "edge, 5 within edges of others or at their ends; --merge DISTANCE, without --slide, joins vertices that nearly "
-      "coincide");
-  sliding.in_same_place = 0;
-  asked.coincident = false;
-  CHECK(trismooth::note_of_touching_lines(sliding, asked) ==
-        "lines touch without sharing vertices, so these do not slide: 5 within edges of others or at their ends; "
-        "--merge DISTANCE, without --slide, joins vertices that nearly coincide");
-}
-
 TEST_CASE("sizes so far from those of the mesh that nothing moves are told") {
   const ScratchFolder folder;
   trismooth::MeshDocument document =
