@@ -5,7 +5,6 @@
 
 #include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/digits.h"
-#include "trismooth/quality/text/report_text.h"
 
 namespace trismooth {
 
@@ -19,21 +18,41 @@ std::string layers_begin(std::int64_t count, double aspect) {
 
 }  // namespace
 
+std::string_view describe(StopReason reason) {
+  switch (reason) {
+    case StopReason::fixed_point:
+      return "no vertex moved any more";
+    case StopReason::tolerance:
+      return "every move was within the tolerance";
+    case StopReason::few_moves:
+      return "few moves: next to nothing is left to gain";
+    case StopReason::sweep_limit:
+      return "the sweep limit was reached";
+    case StopReason::time_limit:
+      return "the time was up";
+    case StopReason::quality_target:
+      return "the quality target was reached";
+    case StopReason::cancelled:
+      break;
+  }
+  return "it was cancelled";
+}
+
 bool has_no_time_for_sweeps(const SmoothingResult& smoothing) {
   return smoothing.stop_reason == StopReason::time_limit && smoothing.sweeps == 0;
 }
 
-std::string no_time_text(const SmoothingResult& smoothing) {
+std::string no_time_text(const SmoothingResult& smoothing, std::string_view consequence) {
   return has_no_time_for_sweeps(smoothing)
-             ? "the time was up before the first sweep, so no sweep has moved anything; give --time-limit more"
+             ? "the time was up before the first sweep, " + std::string(consequence) + "; give --time-limit more"
              : "";
 }
 
 std::string shared_middles_text(std::int64_t count) {
   return count == 0 ? ""
-                    : counted(count, "node in the middle of a side or element is",
-                              "nodes in the middle of sides or elements are") +
-                          " a corner as well, or in the middle of others too: held, with the corners around " +
+                    : counted(count, "node in the middle of a side or element is a corner",
+                              "nodes in the middle of sides or elements are corners") +
+                          " as well, or in the middle of others too: held, with the corners around " +
                           (count == 1 ? "it" : "them") + "; a node of its own for each side and element lets them move";
 }
 
@@ -81,7 +100,7 @@ std::string touching_lines_text(const SlidingResult& sliding, bool may_slide_tog
   }
   const std::string_view together =
       may_slide_together && sliding.in_same_place > 0
-          ? "--slide-coincident has those in the same place slide together, unless on splines; "
+          ? "--slide-coincident has those in the same place slide together, on splines where it is the very same; "
           : "";
   const std::string_view joined = may_join ? "--merge DISTANCE, without --slide, joins vertices that nearly coincide"
                                            : "elements of both sides that name the same vertices have none of these";
@@ -110,7 +129,7 @@ std::string sliding_text(const SlidingResult& sliding) {
   if (sliding.vertices == 0 || sliding.given_up) {
     return where;
   }
-  return count_text(sliding.slid) + " of " + counted(sliding.vertices, "vertex", "vertices") + " on " +
+  return std::to_string(sliding.slid) + " of " + counted(sliding.vertices, "vertex", "vertices") + " on " +
          counted(sliding.chains, "line", "lines") + " slid" + (where.empty() ? "" : "; " + where);
 }
 

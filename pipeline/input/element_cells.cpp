@@ -284,10 +284,10 @@ std::vector<std::string> notes_of_other_cells(std::int64_t other_cells, std::int
     notes.push_back(named(repeating.triangles, "triangle", "vertex", repeating.first_triangle));
   }
   if (const std::int64_t others = other_cells - repeating.triangles - repeating.quads; others > 0) {
-    const std::string what = others == lines
-                                 ? counted(others, "line", "lines")
-                                 : counted(others, "cell", "cells") + " of other types than " + std::string(kinds);
-    notes.push_back(what + ": not smoothed, their vertices held fixed");
+    notes.push_back(others == lines ? counted(others, "line", "lines") +
+                                          ": not smoothed, their vertices held fixed but where they slide (--slide)"
+                                    : counted(others, "cell", "cells") + " of other types than " + std::string(kinds) +
+                                          ": not smoothed, their vertices held fixed");
   }
   if (repeating.quads > 0) {
     notes.push_back(named(repeating.quads, "quadrilateral", "node", repeating.first_quad) +

@@ -63,9 +63,9 @@ SlideLines find_slide_lines(const MeshDocument& document, const ElementCells& me
       }
     }
     if (!line_cells.empty()) {
-      found.notes.push_back(counted(line_cells.size(), "of these cells is a line, which with --slide holds",
-                                    "of these cells are lines, which with --slide hold") +
-                            " nothing: their vertices slide where nothing else holds them");
+      found.notes.push_back(
+          counted(line_cells.size(), "of these cells is a line, which holds", "of these cells are lines, which hold") +
+          " nothing with --slide: their vertices slide where nothing else holds them");
     }
     ValueNumbers tags;
     tags.of_item.assign(line_cells.size(), 0);

@@ -25,6 +25,7 @@
 #include "trismooth/pipeline/report/text_report.h"
 #include "trismooth/quality/size_ratio.h"
 #include "trismooth/quality/text/report_text.h"
+#include "trismooth/smoothing/result_text.h"
 #include "trismooth/version.h"
 
 namespace trismooth {

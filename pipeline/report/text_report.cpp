@@ -343,26 +343,6 @@ std::string shown_meshes(const PipelineOptions& options, const PipelineResult& r
   return others.empty() ? meshes : meshes + ", " + ends(others.front(), others.back());
 }
 
-std::string_view describe(StopReason reason) {
-  switch (reason) {
-    case StopReason::fixed_point:
-      return "no vertex moved any more";
-    case StopReason::tolerance:
-      return "every move was within the tolerance";
-    case StopReason::few_moves:
-      return "few moves: next to nothing is left to gain";
-    case StopReason::sweep_limit:
-      return "the sweep limit was reached";
-    case StopReason::time_limit:
-      return "the time was up";
-    case StopReason::quality_target:
-      return "the quality target was reached";
-    case StopReason::cancelled:
-      break;
-  }
-  return "it was cancelled";
-}
-
 std::string duration_text(double milliseconds) {
   if (milliseconds < 9.95) {
     return fmt::format("{:.2f} ms", milliseconds);

@@ -25,7 +25,7 @@ std::string duration_text(double milliseconds);
 /// Whether a device, not the CPU, ran the sweeps.
 bool ran_on_device(const SmoothingResult& smoothing);
 
-/// Who made the sweeps: "cpu with 2 threads"; a device, and a run that ended before its first sweep, by name alone.
+/// Who made the sweeps: "cpu with 2 threads"; a device by name alone, and whoever was not asked for any any more.
 std::string who_smoothed(const SmoothingResult& smoothing);
 
 /// "14 by the host, 120 by the device": kernel launches of a smoothing on a device.
@@ -48,8 +48,5 @@ std::string shown_meshes(const PipelineOptions& options, const PipelineResult& r
 
 /// "nothing moved: no vertex could be improved", ...: why a run with smoothing moved nothing; empty where it did.
 std::string_view why_nothing_moved(const PipelineResult& result);
-
-/// "nothing moved any more", ...: a stop reason in words.
-std::string_view describe(StopReason reason);
 
 }  // namespace trismooth

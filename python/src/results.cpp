@@ -218,6 +218,16 @@ void bind_sliding(nb::module_& module) {
              return text.str();
            })
       .def("__str__", [](const SlidingResult& sliding) { return sliding_text(sliding); });
+  module.def(
+      "stop_reasons",
+      [] {
+        nb::dict reasons;
+        for (const auto& [reason, name] : EnumText<StopReason>::texts) {
+          reasons[nb::cast(name)] = describe(reason);
+        }
+        return reasons;
+      },
+      "Why sweeps end, in words, by the name of the reason.");
   module.def("where_lines_are", &where_lines_are, "sliding"_a,
              "How far the new lines are from the old ones, or why nothing slides; empty where nothing slid.");
 }
@@ -287,6 +297,12 @@ void bind_results(nb::module_& module) {
                      return sliding ? touching_lines_text(*sliding, true, false) : std::string();
                    })
       .def_prop_ro("no_time_note", [](const Outcome& outcome) { return no_time_text(outcome.smoothing); })
+      .def_prop_ro("no_time_to_follow_note",
+                   [](const Outcome& outcome) {
+                     return no_time_text(outcome.smoothing, outcome.smoothing.inverted >= 0
+                                                                ? "so vertices are where they were carried"
+                                                                : "so no vertex has moved");
+                   })
       .def_prop_ro("following", &following_of)
       .def_prop_ro("inverted", of_smoothing<&SmoothingResult::inverted>())
       .def_prop_ro("degenerate", of_smoothing<&SmoothingResult::degenerate>())

@@ -20,7 +20,8 @@ struct Outcome {
   std::optional<FollowResult> followed;
 };
 
-/// Makes the classes of results: Outcome, SweepRecord, SlidingResult, QualityReport, MetricSummary, WorstElement.
+/// Makes the classes of results: Outcome, SweepRecord, SlidingResult, QualityReport, MetricSummary, WorstElement; and
+/// functions that say why sweeps ended and where lines are.
 void bind_results(nanobind::module_& module);
 
 }  // namespace trismooth::python

@@ -178,6 +178,7 @@ def test_line_cells_are_lines_where_vertices_slide() -> None:
     assert has_moved[1:4].any() and has_moved[4] and not has_moved[8]
     assert np.array_equal(result.mesh.points[G.middle_column, 0], np.full(11, 0.5))
     assert result.sliding.slid == expected.sliding.slid > 0
+    assert "10 of these cells are lines, which hold nothing with slide: their vertices slide where nothing else holds them" in result.notes
     # Data of regions and whole numbers tell them apart, unless these number them; others do not.
     def tagged_by(name, first, second):
         mesh.cell_data = {name: [first, np.ones(200), second, np.array([0])]}

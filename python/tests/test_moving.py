@@ -239,7 +239,7 @@ def test_a_limit_of_time_is_no_fault_of_the_boundary():
     now = points.copy()
     now[of_rotor] = turned(points[of_rotor], 20)
     mesh = trismooth.MovingMesh(points, triangles, time_limit=0.0)
-    with pytest.warns(trismooth.MeshWarning, match="the time was up before the first sweep"):
+    with pytest.warns(trismooth.MeshWarning, match="the time was up before the first sweep, so no vertex has moved"):
         result = mesh.follow(now)
     assert result.inverted == -1 and not any("boundary leaves them no room" in note for note in result.notes)
     np.testing.assert_array_equal(mesh.points, points)

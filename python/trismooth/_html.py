@@ -7,7 +7,7 @@ import math
 from html import escape
 from typing import TYPE_CHECKING, List, Optional, Sequence, Tuple
 
-from ._core import QualityReport, where_lines_are
+from ._core import QualityReport, stop_reasons, where_lines_are
 from ._result import free_moved
 
 if TYPE_CHECKING:
@@ -49,16 +49,6 @@ _STYLE = """
 .S svg rect.before { fill: var(--before); }
 .S svg rect.after { fill: var(--after); }
 """.replace(".S", f".{_SCOPE}")
-
-_STOP_REASONS = {
-    "fixed_point": "no vertex moved any more",
-    "tolerance": "every move was within the tolerance",
-    "few_moves": "few moves: next to nothing is left to gain",
-    "sweep_limit": "the sweep limit was reached",
-    "time_limit": "the time was up",
-    "quality_target": "the quality target was reached",
-    "cancelled": "it was cancelled",
-}
 
 # Decimals of what the cards show, as in the program's reports.
 _DECIMALS = {"shape": 5, "min_angle": 3, "max_angle": 3}
@@ -127,7 +117,7 @@ def _outcome(result: Result, after: Optional[QualityReport]) -> str:
         why = {"quality_target": "The mesh has the target quality already", "time_limit": "There was no time for a sweep"}
         nothing = why.get(result.stop_reason) if result.sweeps == 0 else None
         return f"{nothing or 'No vertex could be improved'}: the mesh is as it was."
-    reason = _STOP_REASONS.get(result.stop_reason, result.stop_reason)
+    reason = stop_reasons().get(result.stop_reason, result.stop_reason)
     sliding = result.sliding
     slid = ""
     if sliding is not None and sliding.vertices > 0:

@@ -9,10 +9,10 @@ import numpy as np
 
 from . import _arrays, _core
 from ._constraints import Constraints
-from ._notes import options_without_effect, warn_of
+from ._notes import in_python, options_without_effect, warn_of
 from ._plan import OnHost
 from ._result import NOT_MENDED as _NOT_MENDED
-from ._result import Result, kind_of, notes_of
+from ._result import Result, invalid_triangles_note, kind_of
 from ._smooth import Progress
 
 _MOST_LISTED = 1000
@@ -30,17 +30,16 @@ def _following(outcome: _core.Outcome) -> dict[str, Any]:
 
 
 def _notes_of_following(outcome: _core.Outcome, says_layers: bool) -> List[str]:
-    # What is not mended has another way out than where nothing moves.
+    # What is not mended has another way out than where nothing moves; lines do not slide.
     no_room = _NO_TIME if outcome.stop_reason == "time_limit" else _NO_ROOM
-    carried = "so vertices are where they were carried" if outcome.inverted >= 0 else "so no vertex has moved"
-    notes = [
-        note.replace(_NOT_MENDED, no_room).replace("so no sweep has moved anything", carried)
-        for note in notes_of(outcome, outcome.carried_layers_notes if says_layers else [])
-    ]
+    of_layers = outcome.carried_layers_notes if says_layers else []
+    said = [outcome.shared_middles_note, *of_layers, outcome.no_time_to_follow_note]
+    notes = [in_python(sentence) for sentence in said if sentence]
+    notes += [note.replace(_NOT_MENDED, no_room) for note in invalid_triangles_note(outcome)]
     folded = 0 if outcome.following is None else outcome.following["invalid_held"]
     if folded > 0:
         notes.append(
-            f"the boundary has folded: all vertices of {folded:,} {kind_of(outcome)}{'' if folded == 1 else 's'} that "
+            f"the boundary has folded: all vertices of {folded} {kind_of(outcome)}{'' if folded == 1 else 's'} that "
             f"{'is' if folded == 1 else 'are'} inverted or without area are held, and no place of the others mends "
             f"{'it' if folded == 1 else 'them'}"
         )
@@ -70,7 +69,7 @@ def _notes_of_following(outcome: _core.Outcome, says_layers: bool) -> List[str]:
 
 
 def _count_of(listed: List[Any]) -> str:
-    return f"{len(listed):,}{' or more' if len(listed) >= _MOST_LISTED else ''}"
+    return f"{len(listed)}{' or more' if len(listed) >= _MOST_LISTED else ''}"
 
 
 class FollowResult(Result):
@@ -126,7 +125,7 @@ class FollowResult(Result):
     def __repr__(self) -> str:
         text = super().__repr__().replace("trismooth.Result", "trismooth.FollowResult")
         invalid = self.inverted + self.degenerate
-        found = "" if invalid == 0 else f", {invalid:,} inverted or degenerate" if invalid > 0 else ", nothing is known"
+        found = "" if invalid == 0 else f", {invalid} inverted or degenerate" if invalid > 0 else ", nothing is known"
         for count, what in ((self.crossings, "crossings of the boundary"), (self.overlaps, "vertices where it lies over itself")):
             found += f", {_count_of(count)} {what}" if count else ""
         return f"{text[:-1]}{found}, smallest relative shape {self.min_relative_shape:.4g}>"

@@ -32,7 +32,7 @@ def invalid_triangles_note(outcome: _core.Outcome) -> List[str]:
     name = kind_of(outcome)
     flat = "without area" if outcome.quadrilaterals == 0 else "without area or with a corner in line"
     kinds = ((outcome.inverted, f"inverted {name}{{}}"), (outcome.degenerate, f"{name}{{}} {flat}"))
-    found = [f"{count:,} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]
+    found = [f"{count} {kind.format('' if count == 1 else 's')}" for count, kind in kinds if count > 0]
     if not found:
         return []
     if had_no_time(outcome):
@@ -49,14 +49,9 @@ def had_no_time(outcome: _core.Outcome) -> bool:
     return bool(outcome.no_time_note)
 
 
-def notes_of(outcome: _core.Outcome, layers: Optional[List[str]] = None) -> List[str]:
-    """What to say of what a smoothing did, one sentence each; of layers what a smoothing says, or these sentences."""
-    said = [
-        outcome.shared_middles_note,
-        *(outcome.layers_notes if layers is None else layers),
-        outcome.touching_lines_note,
-        outcome.no_time_note,
-    ]
+def notes_of(outcome: _core.Outcome) -> List[str]:
+    """What to say of what a smoothing did, one sentence each."""
+    said = [outcome.shared_middles_note, *outcome.layers_notes, outcome.touching_lines_note, outcome.no_time_note]
     return [*(in_python(sentence) for sentence in said if sentence), *invalid_triangles_note(outcome)]
 
 

@@ -288,7 +288,7 @@ TEST_CASE("sides that a copy alone names are named, and copies are no cells of o
   CHECK(mesh.in_other_cell == std::vector<std::uint8_t>{1, 0, 1, 1, 1});
   const trismooth::SlideLines lines = find_slide_lines(document, mesh, {});
   CHECK(lines.notes ==
-        std::vector<std::string>{"1 of these cells is a line, which with --slide holds nothing: their vertices slide "
+        std::vector<std::string>{"1 of these cells is a line, which holds nothing with --slide: their vertices slide "
                                  "where nothing else holds them"});
   CHECK(lines.lines == Numbers{0, 3, 2, 4});
   CHECK(lines.in_other_cell == std::vector<std::uint8_t>(5, 0));

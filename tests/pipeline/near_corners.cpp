@@ -21,6 +21,17 @@
 
 namespace trismooth::near_corners_test {
 
+trismooth::MeshDocument document_of(const std::vector<Point2<double>>& points, const std::vector<Triangle>& triangles) {
+  trismooth::MeshDocument document;
+  for (const auto& [x, y] : points) {
+    document.points.insert(document.points.end(), {x, y, 0});
+  }
+  for (const Triangle& triangle : triangles) {
+    document.cells.append(trismooth::cell_type::triangle, triangle);
+  }
+  return document;
+}
+
 /// A grid of n x n squares, each of two triangles with three vertices of their own, off their places by `off` at most.
 struct ApartTriangles {
   std::vector<Point2<double>> points;
@@ -198,6 +209,9 @@ TEST_CASE("a distance that joins corners of one triangle is refused, as are ways
   options.merge = 0.5;
   CHECK(says(message_of<std::invalid_argument>([&] { smooth_document(mesh.cut, options); }),
              "--merge 0.5 would join two corners of the triangle in cell 0; the shortest side of the mesh is"));
+  trismooth::MeshDocument nowhere = document_of({{1, 1}, {1, 1}, {1, 1}}, {{0, 1, 2}});
+  CHECK(says(message_of<std::invalid_argument>([&] { smooth_document(nowhere, options); }),
+             "--merge 0.5 would join two corners of the triangle in cell 0; no side of the mesh has a length"));
   options.merge = 0;
   options.slide.along = trismooth::Slide::straight;
   CHECK(says(message_of<std::invalid_argument>([&] { smooth_document(mesh.cut, options); }), "leave out --slide"));
@@ -206,17 +220,10 @@ TEST_CASE("a distance that joins corners of one triangle is refused, as are ways
 TEST_CASE("a mesh whose triangles share no side is told why no vertex is free") {
   const ScratchFolder folder;
   const auto notes_of = [&](const ApartTriangles& mesh) {
-    trismooth::MeshDocument document;
-    for (const auto& [x, y] : mesh.points) {
-      document.points.insert(document.points.end(), {x, y, 0});
-    }
-    for (const Triangle& triangle : mesh.triangles) {
-      document.cells.append(trismooth::cell_type::triangle, triangle);
-    }
     trismooth::PipelineOptions options;
     options.input = folder / "apart.off";
     options.output = folder / "out.off";
-    trismooth::write_mesh(options.input, document);
+    trismooth::write_mesh(options.input, document_of(mesh.points, mesh.triangles));
     std::string all;
     for (const std::string& note : trismooth::run_pipeline(options).notes) {
       all += note + '\n';

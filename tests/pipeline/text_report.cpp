@@ -35,6 +35,12 @@ TEST_CASE("the result of a smoothing says what was read, done and written") {
   CHECK(text.back() == '\n');
 }
 
+TEST_CASE("of a call that was over before anybody was to sweep no number of threads is told") {
+  auto result = sample::result();
+  result.smoothing->threads = 0;
+  CHECK(says(text_report(sample::options(), result), "smoothing:  smart, form b, double precision, cpu: 24 ms\n"));
+}
+
 TEST_CASE("all files that were written are told, of many the first") {
   auto result = sample::result();
   result.other_outputs = {"out.h5"};

@@ -111,9 +111,10 @@ std::int32_t launch_sweeps_of_all(const MethodInUse<T>& method, const GridMesh<T
   return launches;
 }
 
-#define TRISMOOTH_SWEEPS_OF_ALL_IN(T, ...)                                                                             \
-  template std::int32_t launch_sweeps_of_all(const MethodInUse<T>&, const GridMesh<T, __VA_ARGS__>&, const LoopRules&, \
-                                             std::span<const std::int32_t>, std::int32_t, LoopState*, SweepSums*,      \
+/// Instantiates launch_sweeps_of_all() for numbers T in rings of the type Rings.
+#define TRISMOOTH_SWEEPS_OF_ALL_IN(T, Rings)                                                                      \
+  template std::int32_t launch_sweeps_of_all(const MethodInUse<T>&, const GridMesh<T, Rings>&, const LoopRules&,  \
+                                             std::span<const std::int32_t>, std::int32_t, LoopState*, SweepSums*, \
                                              cudaStream_t)
 
 /// Instantiates launch_sweeps_of_all() for numbers T in rings of the template Rings, with slots of either width.

@@ -153,8 +153,9 @@ void launch_sweeps_of_marked(const MethodInUse<T>& method, const GridMesh<T, Rin
   });
 }
 
-#define TRISMOOTH_SWEEPS_OF_MARKED_IN(T, ...)                                                                     \
-  template void launch_sweeps_of_marked(const MethodInUse<T>&, const GridMesh<T, __VA_ARGS__>&, const LoopRules&, \
+/// Instantiates launch_sweeps_of_marked() for numbers T in rings of the type Rings.
+#define TRISMOOTH_SWEEPS_OF_MARKED_IN(T, Rings)                                                             \
+  template void launch_sweeps_of_marked(const MethodInUse<T>&, const GridMesh<T, Rings>&, const LoopRules&, \
                                         std::int32_t, LoopState*, SweepSums*, unsigned long long*, cudaStream_t)
 
 /// Instantiates launch_sweeps_of_marked() for numbers T in rings of the template Rings, with slots of either width.
