@@ -167,15 +167,6 @@ std::string number(double value) {
   return text;
 }
 
-/// The value in four significant digits, or in as many as it takes to be told from the bound.
-std::string distinct_number(double value, double bound) {
-  if (is_count(value)) {
-    return number(value);
-  }
-  const std::string rounded = fmt::format("{:.4g}", value);
-  return parse_number<double>(rounded) == bound ? number(value) : rounded;
-}
-
 }  // namespace
 
 std::vector<std::string> gate_names() {
@@ -276,7 +267,15 @@ std::string gate_text(const Gate& gate) {
 }
 
 std::string gate_value_text(const GateOutcome& outcome) {
-  return std::isnan(outcome.value) ? "not defined" : distinct_number(outcome.value, outcome.gate.bound);
+  if (std::isnan(outcome.value)) {
+    return "not defined";
+  }
+  // Rounded, it must neither meet the bound nor pass it.
+  const std::string rounded = fmt::format("{:.4g}", outcome.value);
+  const auto shown = parse_number<double>(rounded);
+  const bool says_the_same =
+      shown != outcome.gate.bound && holds(*shown, outcome.gate.comparison, outcome.gate.bound) == outcome.passed;
+  return is_count(outcome.value) || !says_the_same ? number(outcome.value) : rounded;
 }
 
 std::string gate_failure(const GateOutcome& outcome) {

@@ -46,7 +46,7 @@ HeldVertices count_held(const ReasonCounts& counts, const LayersResult& layers) 
     held.several += found > 1 ? counts[bits] : 0;
   }
   held.named -= layers.kept + layers.kept_on_lines;
-  held.layers = layers.kept;
+  held.layers = layers.kept + layers.kept_on_lines;
   return held;
 }
 

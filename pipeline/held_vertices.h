@@ -20,8 +20,8 @@ struct HeldVertices {
   std::int64_t other_cells = 0;   ///< of a cell that is no element, or linked with another vertex
   std::int64_t unused = 0;        ///< of no cell
   std::int64_t named = 0;         ///< by an array, by a set of the file or by a file of numbers
-  std::int64_t layers = 0;        ///< of layers that are flat on purpose, and held by nothing else
-  std::int64_t several = 0;       ///< for more than one of these reasons
+  std::int64_t layers = 0;   ///< of layers that are flat on purpose, and held, or kept from sliding, for that alone
+  std::int64_t several = 0;  ///< for more than one of these reasons
 };
 
 /// How many vertices have each combination of the bits of namespace hold.

@@ -23,7 +23,7 @@ std::string_view describe(StopReason reason) {
     case StopReason::fixed_point:
       return "no vertex moved any more";
     case StopReason::tolerance:
-      return "every move was within the tolerance";
+      return "every move of the last sweep was within the tolerance";
     case StopReason::few_moves:
       return "few moves: next to nothing is left to gain";
     case StopReason::sweep_limit:

@@ -27,7 +27,7 @@ void require_arrays(const std::filesystem::path& path) {
   std::string formats;
   for (const FileFormat other : all_formats()) {
     if (has_arrays(other) && is_available(other)) {
-      formats.append(formats.empty() ? "." : ", .").append(to_string(other));
+      formats.append(formats.empty() ? "" : ", ").append(extensions_of(other).front());
     }
   }
   throw std::invalid_argument("'" + path.string() + "' can hold no arrays; formats that do are " + formats);

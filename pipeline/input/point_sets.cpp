@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "trismooth/base/text/counted.h"
 #include "trismooth/base/text/plain_name.h"
 #include "trismooth/pipeline/input/marked_points.h"
 #include "trismooth/pipeline/input/set_labels.h"
@@ -149,10 +150,14 @@ class SetFinder {
   }
 
   HeldSets by_names(std::span<const std::string> names) {
+    const std::size_t implied_end = members_.size();  // what is named may be a set of its own, behind these
     for (const std::string& name : names) {
       for (const std::size_t set : named(name)) {
         hold(set);
       }
+    }
+    if (!names.empty()) {
+      tell_of_points_let_go(implied_end);
     }
     return finished();
   }
@@ -206,6 +211,19 @@ class SetFinder {
       names_.push_back(array->name);
     }
     return inside;
+  }
+
+  /// Tells of points of implied sets, which end before `implied_end`, that would be held if no set were named.
+  void tell_of_points_let_go(std::size_t implied_end) {
+    for (std::size_t s = document_.point_sets.size(); s < implied_end; ++s) {
+      const auto free = std::ranges::count_if(
+          members_[s], [this](std::int32_t v) { return found_.flags.empty() || found_.flags[v] == 0; });
+      if (free > 0) {
+        found_.notes.push_back(counted(free, "point", "points") + " of '" + names_[s] +
+                               "' may move, since other sets are named; --fixed-set " + shell_word(names_[s]) +
+                               " beside these holds " + (free == 1 ? "it" : "them"));
+      }
+    }
   }
 
   /// Leaves the implied sets what nothing else of the mesh holds.

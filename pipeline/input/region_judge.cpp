@@ -188,7 +188,16 @@ void choose_regions(std::span<const TriangleValues> arrays, std::span<const std:
   std::optional<std::size_t> constant;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     const TriangleValues& array = arrays[i];
-    if (is_annotation(array.name) || (!sizes.empty() && array.name == sizes)) {
+    if (is_annotation(array.name)) {
+      continue;
+    }
+    if (!sizes.empty() && array.name == sizes) {
+      if (std::vector<std::string> unsaid; judge(array, unsaid)) {
+        notes.push_back("the cell array '" + array.name +
+                        "' has sizes (--size-array), so it is not taken for regions: what is between its values may "
+                        "move; " +
+                        option_for(array.name) + " holds it");
+      }
       continue;
     }
     if (const auto reason = judge(array, notes)) {

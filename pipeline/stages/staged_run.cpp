@@ -132,6 +132,9 @@ void StagedRun::check_after() {
   for (std::string& warning : warnings_of_invalid(result)) {
     run_.warn(std::move(warning));
   }
+  if (std::string note = note_of_missed_target(run_.options, result); !note.empty()) {
+    run_.note(std::move(note));
+  }
 }
 
 void StagedRun::write() {

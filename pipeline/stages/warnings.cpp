@@ -124,6 +124,15 @@ std::vector<std::string> warnings_of_invalid(const PipelineResult& result) {
   return warnings;
 }
 
+std::string note_of_missed_target(const PipelineOptions& options, const PipelineResult& result) {
+  const std::optional<double>& target = options.smoothing.target_quality;
+  if (!target || !result.smoothing || !result.after || !((*result.after)[Metric::shape].min < *target)) {
+    return {};
+  }
+  return fmt::format("the smallest shape is {:.4g} and not {:.4g}, which --target-quality asks for: {}",
+                     (*result.after)[Metric::shape].min, *target, describe(result.smoothing->stop_reason));
+}
+
 std::vector<std::string> warnings_of_deformation(const PipelineResult& result) {
   const DeformationResult& deformation = *result.deformation;
   const DeformedStep& worst = deformation.steps[deformation.worst];

@@ -30,6 +30,9 @@ std::string warning_of_options_without_effect(const PipelineOptions& options);
 /// with the way out.
 std::vector<std::string> warnings_of_invalid(const PipelineResult& result);
 
+/// That the quality which was asked for was not reached; empty where it was, or none was asked for.
+std::string note_of_missed_target(const PipelineOptions& options, const PipelineResult& result);
+
 /// What is to be said of a mesh that has not followed its boundary as it should, with the way out.
 std::vector<std::string> warnings_of_deformation(const PipelineResult& result);
 

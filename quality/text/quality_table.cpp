@@ -263,11 +263,16 @@ std::string format_summary(const QualityReport& before, const QualityReport& aft
     const MetricSummary& to = after[metric];
     const int digits = decimals(metric);
     TextPair worst = distinct_texts(worst_of(metric, from), worst_of(metric, to), digits);
+    MetricSummary judged = to;
     if (std::max(worst.before.size(), worst.after.size()) > longest_worst) {
+      // What changes behind all digits that are shown does not change: "worse" beside equal numbers would only alarm.
+      judged.min = from.min;
+      judged.max = from.max;
       worst = {cell_text(worst_of(metric, from), digits), cell_text(worst_of(metric, to), digits)};
     }
     columns.add_row({std::string(info(metric).name), std::move(worst.before), std::move(worst.after),
-                     cell_text(from.mean, digits), cell_text(to.mean, digits), std::string(verdict(metric, from, to))});
+                     cell_text(from.mean, digits), cell_text(to.mean, digits),
+                     std::string(verdict(metric, from, judged))});
   }
   columns.add_row({"inverted", count_text(before.inverted), count_text(after.inverted)});
   if (before.degenerate > 0 || after.degenerate > 0) {

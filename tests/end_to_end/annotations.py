@@ -2,6 +2,7 @@
 """Annotations: right values, replaced by a later run, never taken for input; a file's own arrays stay."""
 
 import os
+import re
 
 import mesh_reader
 import planar_geometry
@@ -97,6 +98,15 @@ class Annotations(tool.ToolTest):
                 for target in ("converted.vtk", "converted.vtu"):
                     self.run_tool("quality", other, "--annotate", target, "--quiet")
                     self.assert_annotated(self.mesh(target), {"shape"}, {"fixed"})
+
+    def test_what_can_hold_no_annotations_is_refused_with_extensions_that_can(self):
+        self.write("a.vtk", samples()["a.vtk"])
+        error = self.run_tool("quality", "a.vtk", "--annotate", "shape.off", expect=2).err
+        named = re.search(r"'shape.off' can hold no arrays; formats that do are (\.ply, \.vtk, [a-z., ]*[a-z])", error)
+        self.assertTrue(named, error)
+        for extension in named[1].split(", "):
+            with self.subTest(extension=extension):
+                self.run_tool("quality", "a.vtk", "--annotate", "shape" + extension)
 
     def test_a_run_on_annotated_output_is_one_on_the_plain_output(self):
         for name, content in samples().items():

@@ -93,6 +93,18 @@ class Sizes(tool.ToolTest):
         self.assertEqual([list(smoothed[v]) for v in interface], [self.points[v] for v in interface])
         self.assertNotEqual(list(smoothed[n + 2]), self.points[n + 2])
 
+    def test_regions_whose_array_has_the_sizes_are_said_not_to_be_held(self):
+        n = POINTS_WIDE - 1
+        values = "".join(f"{1 + (t // 2 % n >= n // 2)}\n" for t in range(len(self.triangles)))
+        self.write("in.vtk", self.vtk().replace(
+            "\nPOINT_DATA", f"\nSCALARS material int 1\nLOOKUP_TABLE default\n{values}POINT_DATA"))
+        arguments = ("smooth", "in.vtk", "out.vtk", "--method", "mean-ratio", "--size-array", "material")
+        self.assertIn("the cell array 'material' has sizes (--size-array), so it is not taken for regions: what is between its "
+                      "values may move; --region-array material holds it", self.run_tool(*arguments).err)
+        said = self.run_tool(*arguments, "--region-array", "material")
+        self.assertNotIn("has sizes", said.err)
+        self.assertIn("interface", said.out)
+
     def test_another_method_takes_no_notice_and_says_so(self):
         self.write("in.vtk", self.vtk())
         plain = self.report("smooth", "in.vtk", "out.vtk")

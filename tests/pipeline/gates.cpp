@@ -172,6 +172,9 @@ TEST_CASE("a failed gate says what was demanded and what is") {
   report[Metric::shape].min = 0.29999999;
   CHECK(gate_failure(check_gate(parse_gate("min_shape>=0.3"), report)) ==
         "gate failed: min_shape >= 0.3, is 0.29999999");
+  report[Metric::min_angle].min = 3.3237965228831334;
+  CHECK(gate_failure(check_gate(parse_gate("min_angle>=3.32395"), report)) ==
+        "gate failed: min_angle >= 3.32395, is 3.3237965228831334");
 }
 
 TEST_CASE("the outcome of a gate has what was demanded, what is, and whether it passed") {

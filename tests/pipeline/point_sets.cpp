@@ -81,7 +81,12 @@ TEST_CASE("implied sets hold what is inside the mesh and of no line, also where 
   const std::vector<std::string> none{"none"};
   CHECK(find_held_sets(document, triangles, none).flags.empty());
   const std::vector<std::string> named{"curves"};
-  const Bytes flags = find_held_sets(document, triangles, named).flags;
+  const HeldSets curves = find_held_sets(document, triangles, named);
+  const Bytes& flags = curves.flags;
+  CHECK(curves.notes ==
+        std::vector<std::string>{
+            "6 points of 'all' may move, since other sets are named; --fixed-set all beside these holds them"});
+  CHECK(find_held_sets(document, triangles, none).notes.empty());
   CHECK(std::accumulate(flags.begin(), flags.end(), 0) == 1);
   CHECK(flags[11] == 1);
   // What lies between two regions is held by these: here rows of cells above and below the points 5 to 9.

@@ -42,6 +42,21 @@ TEST_CASE("options that the method or the way of sliding takes no notice of are 
   CHECK(warning_of_options_without_effect(options).empty());
 }
 
+TEST_CASE("a quality that was asked for and not reached is told, with the reason") {
+  PipelineOptions options;
+  PipelineResult result;
+  result.after.emplace();
+  (*result.after)[Metric::shape].min = 0.5;
+  result.smoothing.emplace();
+  result.smoothing->stop_reason = StopReason::sweep_limit;
+  CHECK(note_of_missed_target(options, result).empty());
+  options.smoothing.target_quality = 0.5;
+  CHECK(note_of_missed_target(options, result).empty());
+  options.smoothing.target_quality = 0.75;
+  CHECK(note_of_missed_target(options, result) ==
+        "the smallest shape is 0.5 and not 0.75, which --target-quality asks for: the sweep limit was reached");
+}
+
 TEST_CASE("sizes so far from those of the mesh that nothing moves are told") {
   const ScratchFolder folder;
   trismooth::MeshDocument document =
