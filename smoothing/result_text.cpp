@@ -125,7 +125,7 @@ std::string where_lines_are(const SlidingResult& sliding) {
 }
 
 std::string sliding_text(const SlidingResult& sliding) {
-  const std::string where = where_lines_are(sliding);
+  std::string where = where_lines_are(sliding);
   if (sliding.vertices == 0 || sliding.given_up) {
     return where;
   }

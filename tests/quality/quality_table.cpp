@@ -40,7 +40,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 /// The words of the first line that begins with `label`.
 std::vector<std::string> words_after(const std::string& text, const std::string& label) {
   for (const std::string& line : lines_of(text)) {
-    if (line.rfind(label + " ", 0) == 0) {
+    if (line.starts_with(label + " ")) {
       std::istringstream stream(line.substr(label.size()));
       std::vector<std::string> words;
       for (std::string word; stream >> word;) {
