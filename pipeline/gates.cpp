@@ -272,9 +272,9 @@ std::string gate_value_text(const GateOutcome& outcome) {
   }
   // Rounded, it must neither meet the bound nor pass it.
   const std::string rounded = fmt::format("{:.4g}", outcome.value);
-  const auto shown = parse_number<double>(rounded);
+  const double shown = parse_number<double>(rounded).value();
   const bool says_the_same =
-      shown != outcome.gate.bound && holds(*shown, outcome.gate.comparison, outcome.gate.bound) == outcome.passed;
+      shown != outcome.gate.bound && holds(shown, outcome.gate.comparison, outcome.gate.bound) == outcome.passed;
   return is_count(outcome.value) || !says_the_same ? number(outcome.value) : rounded;
 }
 

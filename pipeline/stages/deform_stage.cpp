@@ -239,9 +239,7 @@ void Deformer::step_checked() {
   result.size_change = worst_.size_change;
   result.coordinates_hash = worst_.coordinates_hash;
   result.unguarded_hash = worst_.unguarded_hash;
-  if (std::string note = carried_layers_text(result.smoothing->layers); !note.empty()) {
-    run_.note(std::move(note));
-  }
+  run_.note(carried_layers_text(result.smoothing->layers));
   if (const auto ended = std::ranges::count(steps_.steps, StopReason::sweep_limit, &DeformedStep::stop_reason);
       ended > 0) {
     run_.note(

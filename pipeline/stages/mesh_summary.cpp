@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "trismooth/base/hold.h"
@@ -67,9 +66,7 @@ void summarise_mesh(RunContext& run, const MeshFacts& facts) {
   result.notes.insert(result.notes.begin(), facts.regions.notes.begin(), facts.regions.notes.end());
   std::ranges::move(notes_of_irregular_vertices(facts.reasons, facts.quadrilaterals > 0 ? "elements" : "triangles"),
                     std::back_inserter(result.notes));
-  if (std::string note = held_layers_text(facts.layers); !note.empty()) {
-    run.note(std::move(note));
-  }
+  run.note(held_layers_text(facts.layers));
 }
 
 }  // namespace trismooth

@@ -19,9 +19,17 @@ struct RunContext {
   Workers workers;
   PipelineResult result;
 
-  void note(std::string sentence) { result.notes.push_back(std::move(sentence)); }
-  /// Keeps the warning, and tells it at once to who wants to know.
+  /// Keeps the sentence; an empty one has nothing to say.
+  void note(std::string sentence) {
+    if (!sentence.empty()) {
+      result.notes.push_back(std::move(sentence));
+    }
+  }
+  /// Keeps the warning, and tells it at once to who wants to know; an empty one has nothing to say.
   void warn(std::string warning) {
+    if (warning.empty()) {
+      return;
+    }
     result.warnings.push_back(std::move(warning));
     if (options.warned) {
       options.warned(result.warnings.back());

@@ -127,10 +127,7 @@ SmoothingResult smooth_mesh(RunState& run) {
   note_growth_bound(run, before);
   if (smoothing.sliding) {
     compare_areas(run, before);
-    if (std::string note = touching_lines_text(*smoothing.sliding, !run.options.slide.coincident, true);
-        !note.empty()) {
-      run.note(std::move(note));
-    }
+    run.note(touching_lines_text(*smoothing.sliding, !run.options.slide.coincident, true));
   }
   return smoothing;
 }

@@ -95,9 +95,7 @@ void StagedRun::smooth() {
   timings.smooth += smoothing.timings.smooth;
   timings.transfer_out += smoothing.timings.transfer_out;
   timings.guard += smoothing.timings.commit;
-  if (std::string warning = no_time_text(smoothing); !warning.empty()) {
-    run_.warn(std::move(warning));
-  }
+  run_.warn(no_time_text(smoothing));
   // Rings had their layers held before there was a smoothing.
   smoothing.layers = run_.result.input.layers;
   run_.result.smoothing = std::move(smoothing);
@@ -132,9 +130,7 @@ void StagedRun::check_after() {
   for (std::string& warning : warnings_of_invalid(result)) {
     run_.warn(std::move(warning));
   }
-  if (std::string note = note_of_missed_target(run_.options, result); !note.empty()) {
-    run_.note(std::move(note));
-  }
+  run_.note(note_of_missed_target(run_.options, result));
 }
 
 void StagedRun::write() {

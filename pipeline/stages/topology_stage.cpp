@@ -314,9 +314,7 @@ void connect_mesh(RunState& run) {
   std::ranges::copy(options.fixed_vertices, std::back_inserter(ids));
   if (!mesh.quadratics.empty()) {
     add_vertices(fixed, ids, document.point_count());
-    if (std::string note = shared_middles_text(settle_middles(mesh, document.points, fixed)); !note.empty()) {
-      run.note(std::move(note));
-    }
+    run.note(shared_middles_text(settle_middles(mesh, document.points, fixed)));
   }
   if (!mesh.merged.empty()) {
     add_vertices(fixed, ids, document.point_count());

@@ -233,15 +233,11 @@ void warn_of_input(RunContext& run) {
 void warn_before_smoothing(StagedMesh& mesh) {
   RunContext& run = mesh.context();
   warn_of_precision(mesh);
-  if (std::string warning = warning_of_options_without_effect(run.options); !warning.empty()) {
-    run.warn(std::move(warning));
-  }
+  run.warn(warning_of_options_without_effect(run.options));
   if (const CoarseBoundary coarse = mesh.coarse_boundary(); coarse.any()) {
     run.warn(describe(coarse) + "; put more vertices on the boundary, or hold those behind it (--fixed-ids)");
   }
-  if (std::string warning = left_layers_text(run.result.input.layers); !warning.empty()) {
-    run.warn(std::move(warning));
-  }
+  run.warn(left_layers_text(run.result.input.layers));
   warn_of_projection(run);
 }
 

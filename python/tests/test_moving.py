@@ -187,7 +187,9 @@ def test_layers_go_with_their_wall():
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         result = mesh.follow(now)
-    assert any("carried along as" in str(note.message) for note in said)
+    assert any(
+        "and are carried along as they are; layers='smooth' smooths them" in str(note.message) for note in said
+    )
     first = (result.points[31:62, 1] - result.points[:31, 1])[1:-1]
     np.testing.assert_allclose(first, 0.002, rtol=0.05)
 
@@ -223,7 +225,7 @@ def test_layers_are_said_in_the_first_step_alone_also_as_errors():
     first = (np.arange(20)[:, None] * 41 + np.arange(40)).ravel()
     triangles = np.concatenate([np.column_stack([first, first + 1, first + 42]), np.column_stack([first, first + 42, first + 41])])
     mesh = trismooth.MovingMesh(points, triangles)
-    with pytest.warns(trismooth.MeshWarning, match="layers .* carried along as"):
+    with pytest.warns(trismooth.MeshWarning, match="layers .* are carried along as they are; layers='smooth' smooths them"):
         mesh.follow(points)
     with warnings.catch_warnings():
         warnings.simplefilter("error", trismooth.MeshWarning)

@@ -175,6 +175,8 @@ TEST_CASE("a failed gate says what was demanded and what is") {
   report[Metric::min_angle].min = 3.3237965228831334;
   CHECK(gate_failure(check_gate(parse_gate("min_angle>=3.32395"), report)) ==
         "gate failed: min_angle >= 3.32395, is 3.3237965228831334");
+  report[Metric::condition].max = std::numeric_limits<double>::infinity();
+  CHECK(gate_failure(check_gate(parse_gate("max_condition<5"), report)) == "gate failed: max_condition < 5, is inf");
 }
 
 TEST_CASE("the outcome of a gate has what was demanded, what is, and whether it passed") {

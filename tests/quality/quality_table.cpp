@@ -113,7 +113,19 @@ TEST_CASE("a change of the worst element is never hidden by rounding") {
           Approx(after[Metric::max_angle].max - before[Metric::max_angle].max).epsilon(0.06));
     CHECK(words_below(table, "shape").back() == "better");
     CHECK(words_below(table, "max_angle").back() == "worse");
-    CHECK(words_after(format_summary(before, after), "shape").back() == (step >= 1e-9 ? "better" : "same"));
+  }
+}
+
+TEST_CASE("the short table has digits for a change down to 1e-9, and judges a smaller one as it shows it") {
+  const QualityReport before = strip_report(0.4);
+  QualityReport after = before;
+  for (const double step : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {
+    CAPTURE(step);
+    after[Metric::shape].min = before[Metric::shape].min + step;
+    const std::vector<std::string> words = words_after(format_summary(before, after), "shape");
+    const bool is_shown = words[0] != words[1];
+    CHECK(is_shown == (step >= 1e-9));
+    CHECK(words.back() == (is_shown ? "better" : "same"));
   }
 }
 
